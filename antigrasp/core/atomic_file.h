@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace antigrasp {
+
+// A file that appears whole or not at all: write to temp_path(), then Commit() syncs it to disk and
+// renames it onto the target. Without Commit() the destructor removes the temporary file and the
+// target stays as it was. The parent folder must exist (InputError otherwise).
+class AtomicFile {
+ public:
+  explicit AtomicFile(std::filesystem::path target);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  const std::filesystem::path& temp_path() const { return temp_; }
+  void Commit();  // RuntimeFailure when the disk is full or the rename is refused
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path temp_;
+  bool committed_ = false;
+};
+
+// The same for bytes in memory.
+void WriteFileAtomic(const std::filesystem::path& target, std::string_view bytes);
+
+// Whole file as bytes. InputError when it is missing, a directory or unreadable.
+std::string ReadFile(const std::filesystem::path& path);
+
+// Throws InputError unless `path` is an existing, regular, readable file. `expected` ends the line.
+void RequireFile(const std::filesystem::path& path, const std::string& expected);
+
+// Creates the folder (and parents). InputError when something else is in the way or not writable.
+void MakeFolder(const std::filesystem::path& folder);
+
+}  // namespace antigrasp

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace antigrasp {
+
+// Shortest decimal text that reads back to the same double; "nan", "inf", "-inf".
+std::string FormatDouble(double value);
+// "1m 05s", "2h 10m", "3.2s".
+std::string FormatDuration(double seconds);
+// One CSV field, quoted only when it must be (RFC 4180).
+std::string CsvField(std::string_view text);
+
+}  // namespace antigrasp

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace antigrasp {
+
+// One knob: where its value lives, what it may be and what it means. A module lists the fields of
+// its options struct once, in Bind(OptionTable&, TheOptions&); the configuration file, --set,
+// the command-line flags, the saved resolved file and `antigrasp help` are all made from that list.
+struct Option {
+  using Target = std::variant<bool*, int*, std::uint64_t*, double*, std::string*>;
+  std::string key;  // dotted: "metric.friction"
+  Target target;
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  std::vector<std::string> choices;  // for strings; empty = any
+  std::string help;                  // one line with the unit
+};
+
+class OptionTable {
+ public:
+  void Add(std::string key, bool* target, std::string help);
+  void Add(std::string key, int* target, double min, double max, std::string help);
+  void Add(std::string key, std::uint64_t* target, std::string help);
+  void Add(std::string key, double* target, double min, double max, std::string help);
+  void Add(std::string key, std::string* target, std::vector<std::string> choices,
+           std::string help);
+
+  const std::vector<Option>& options() const { return options_; }
+
+  // Each throws InputError naming file:line (or `origin`), key, value and the accepted range. An
+  // unknown key is an error that names the nearest known one. Nothing is assigned on error.
+  void ApplyFile(const std::string& path);
+  void ApplyText(std::string_view toml, const std::string& origin);
+  void ApplyOverride(const std::string& key_equals_value);              // "a.b=c", from --set
+  void ApplyValue(const std::string& key, const std::string& text, const std::string& origin);
+
+  // TOML that ApplyText reads back to the same values, one table per section, help as comments.
+  std::string Dump() const;
+
+ private:
+  std::vector<Option> options_;
+};
+
+// "a number in [0, 10]", "one of hinge, wgan": what an option accepts, for messages and help.
+std::string Accepted(const Option& option);
+// The current value as TOML text.
+std::string ValueText(const Option& option);
+
+}  // namespace antigrasp

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "antigrasp/core/options.h"
+
+namespace antigrasp {
+
+// Shape of the two networks. Everything a checkpoint needs to rebuild them.
+struct ModelOptions {
+  int width = 8;         // c: channels of the generator's last hidden layer at 16^3
+  int latent = 200;      // z in R^200 (paper V-A)
+  int resolution = 32;   // 32 only
+  bool spectral_norm = true;  // on the discriminator; off reproduces VI-D
+  bool batch_norm = true;     // in the generator
+  bool output_blur = true;    // [1 2 1]/4 before tanh
+  // A network value v stands for the distance truncation * v, clamped; 0 = raw distances times
+  // raw_scale.
+  double truncation = 0.1;
+  double raw_scale = 1.0;
+};
+
+void Bind(OptionTable* table, ModelOptions* options);  // keys "model.*"
+
+}  // namespace antigrasp

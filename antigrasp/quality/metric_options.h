@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "antigrasp/core/options.h"
+
+namespace antigrasp {
+
+// Every constant of the metric (docs/metric.md). Two graspabilities compare only when all are equal,
+// so all are written into every result file. Lengths in metres, angles in radians.
+struct MetricOptions {
+  // Contact and wrench model (Dex-Net 1.0).
+  double friction = 0.5;
+  int cone_edges = 8;
+  double finger_radius = 0.005;   // soft finger: torsion +-pi r^2 mu
+  double torque_scale = 1000.0;   // 1 / m
+  // Object and gripper.
+  double object_min_extent = 0.040;  // smallest bounding-box extent after rescaling; 0 = as it is
+  double jaw_opening = 0.05;         // widest grasp
+  // Sampling.
+  int num_grasps = 100;
+  int num_draws = 25;
+  int max_attempts = 4000;  // candidate grasps tried per object
+  double percentile = 75.0;
+  // Noise (standard deviations).
+  double object_translation_std = 0.0025;
+  double object_rotation_std = 0.01;
+  double grasp_translation_std = 0.00125;
+  double grasp_rotation_std = 0.001;
+  double friction_std = 0.1;
+  int bootstrap = 1000;  // resamples behind the 95 % interval
+};
+
+// Sets the noise to "default" (above), "dexnet" (0.01, 0.01, 0.005, 0.001, 0.1) or "none".
+void ApplyNoisePreset(const std::string& name, MetricOptions* options);
+
+void Bind(OptionTable* table, MetricOptions* options);  // keys "metric.*"
+
+}  // namespace antigrasp

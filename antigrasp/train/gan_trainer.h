@@ -1,0 +1,65 @@
+#pragma once
+
+#include <torch/torch.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "antigrasp/core/options.h"
+#include "antigrasp/models/discriminator.h"
+#include "antigrasp/models/generator.h"
+
+namespace antigrasp {
+
+// How one GAN is trained.
+struct GanOptions {
+  int batch = 32;
+  int discriminator_steps = 1;
+  double learning_rate_g = 4e-4;
+  double learning_rate_d = 4e-4;
+  double beta1 = 0.0;
+  double beta2 = 0.9;
+  double lr_decay_fraction = 0.25;  // last share of an episode over which the rate falls to 0; 0 = never
+  double ema = 0.0;                 // decay of the averaged generator; 0 = 1 - 4 / iterations
+};
+void Bind(OptionTable* table, GanOptions* options);  // keys "gan.*"
+
+struct GanLosses {
+  double discriminator = 0.0;  // L_D^data + L_D^gen (hinge, V-A)
+  double generator = 0.0;      // L_G
+};
+
+// The networks, their average, their optimisers and the step count: all that training changes.
+// Random numbers of step t depend on (seed, episode, t) only, so there is no generator state.
+class GanTrainer {
+ public:
+  GanTrainer(const ModelOptions& model, const GanOptions& options, std::uint64_t seed,
+             torch::Device device);
+  ~GanTrainer();
+
+  // Begins an episode: Adam's moments and the average restart; networks go on from where they are,
+  // or from fresh weights when `restart_networks`.
+  void BeginEpisode(int episode, std::int64_t iterations, bool restart_networks);
+
+  // One update of D (discriminator_steps of them) and of G. `shapes`: [N, 1, 32, 32, 32] float16 or
+  // float32 network values on the CPU. Losses not finite: RuntimeFailure.
+  GanLosses Step(const torch::Tensor& shapes);
+
+  std::int64_t step() const;        // steps done in this episode
+  std::int64_t iterations() const;  // of this episode
+  int episode() const;
+
+  // Sample `first + i` of stream `seed` from the averaged generator, i in [0, count): network values
+  // [count, 1, 32, 32, 32] float32 on the CPU. Sample i does not depend on count or batch.
+  torch::Tensor Sample(std::uint64_t seed, std::int64_t first, std::int64_t count);
+
+  void Save(torch::serialize::OutputArchive* archive) const;
+  void Load(torch::serialize::InputArchive* archive);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace antigrasp

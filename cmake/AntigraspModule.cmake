@@ -1,0 +1,25 @@
+# antigrasp_module(core SOURCES a.cpp b.cpp PUBLIC targets... PRIVATE targets...)
+# Makes the static library antigrasp_<name>, alias antigrasp::<name>. The PUBLIC and PRIVATE lists
+# are the dependency rule of docs/architecture.md.
+function(antigrasp_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(antigrasp_${name} STATIC ${ARG_SOURCES})
+  add_library(antigrasp::${name} ALIAS antigrasp_${name})
+  target_include_directories(antigrasp_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                                      $<INSTALL_INTERFACE:include>)
+  target_link_libraries(antigrasp_${name} PUBLIC ${ARG_PUBLIC} PRIVATE antigrasp_options ${ARG_PRIVATE})
+  target_compile_features(antigrasp_${name} PUBLIC cxx_std_20)
+endfunction()
+
+# antigrasp_test(core SOURCES a_test.cpp LIBS antigrasp::core [LABELS slow])
+# One executable per folder; every TEST becomes a CTest named <folder>/<Suite.Name>.
+function(antigrasp_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
+  add_executable(${name}_test ${ARG_SOURCES})
+  target_link_libraries(${name}_test PRIVATE antigrasp_options ${ARG_LIBS} antigrasp_test_support
+                                             GTest::gtest GTest::gtest_main)
+  target_compile_definitions(${name}_test PRIVATE
+                             ANTIGRASP_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
+  gtest_discover_tests(${name}_test TEST_PREFIX ${name}/ DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT 600 LABELS "${name};${ARG_LABELS}")
+endfunction()

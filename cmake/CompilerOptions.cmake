@@ -1,0 +1,19 @@
+# One place for language level, warnings and sanitizers; every antigrasp target links this.
+add_library(antigrasp_options INTERFACE)
+target_compile_features(antigrasp_options INTERFACE cxx_std_20)
+# -ffp-contract=off: the same source gives the same bits with and without FMA hardware.
+target_compile_options(antigrasp_options INTERFACE -Wall -Wextra -Wconversion -Wno-sign-conversion
+                                                   -ffp-contract=off)
+if(ANTIGRASP_WERROR)
+  target_compile_options(antigrasp_options INTERFACE -Werror)
+endif()
+if(ANTIGRASP_SANITIZE)
+  target_compile_options(antigrasp_options INTERFACE -fsanitize=${ANTIGRASP_SANITIZE}
+                                                     -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(antigrasp_options INTERFACE -fsanitize=${ANTIGRASP_SANITIZE})
+endif()
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+# Release keeps -O3 but drops nothing that CHECK needs (CHECK does not use NDEBUG).
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
