@@ -11,9 +11,9 @@ namespace antigrasp {
 }  // namespace antigrasp
 
 // A broken invariant is a bug of ours: always on, in every build type.
-#define AG_CHECK(condition, message)                                               \
-  do {                                                                             \
-    if (!(condition)) {                                                            \
-      ::antigrasp::CheckFailed(__FILE__, __LINE__, #condition, (message));         \
-    }                                                                              \
+#define AG_CHECK(condition, message)                                       \
+  do {                                                                     \
+    if (!(condition)) {                                                    \
+      ::antigrasp::CheckFailed(__FILE__, __LINE__, #condition, (message)); \
+    }                                                                      \
   } while (false)

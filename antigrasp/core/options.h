@@ -18,8 +18,8 @@ struct Option {
   Target target;
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  std::vector<std::string> choices;  // for strings; empty = any
-  std::string help;                  // one line with the unit
+  std::vector<std::string> choices = {};  // for strings; empty = any
+  std::string help = {};                  // one line with the unit
 };
 
 class OptionTable {
@@ -37,7 +37,7 @@ class OptionTable {
   // unknown key is an error that names the nearest known one. Nothing is assigned on error.
   void ApplyFile(const std::string& path);
   void ApplyText(std::string_view toml, const std::string& origin);
-  void ApplyOverride(const std::string& key_equals_value);              // "a.b=c", from --set
+  void ApplyOverride(const std::string& key_equals_value);  // "a.b=c", from --set
   void ApplyValue(const std::string& key, const std::string& text, const std::string& origin);
 
   // TOML that ApplyText reads back to the same values, one table per section, help as comments.

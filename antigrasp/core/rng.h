@@ -20,10 +20,10 @@ class RngStream {
 
   std::uint32_t NextU32();
   std::uint64_t NextU64();
-  double Uniform();                       // [0, 1), 53 bits
+  double Uniform();                         // [0, 1), 53 bits
   double Uniform(double low, double high);  // [low, high)
-  double Normal();                        // mean 0, standard deviation 1 (Box-Muller)
-  std::uint64_t Below(std::uint64_t n);   // {0, ..., n-1} without bias; n > 0
+  double Normal();                          // mean 0, standard deviation 1 (Box-Muller)
+  std::uint64_t Below(std::uint64_t n);     // {0, ..., n-1} without bias; n > 0
 
  private:
   std::array<std::uint32_t, 2> key_;

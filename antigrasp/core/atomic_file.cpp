@@ -1,0 +1,107 @@
+#include "antigrasp/core/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "antigrasp/core/error.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void FailIo(const std::string& doing, const fs::path& path) {
+  throw RuntimeFailure("cannot " + doing + " " + path.string() + ": " + std::strerror(errno));
+}
+
+void SyncToDisk(const fs::path& path, int flags) {
+  const int fd = ::open(path.c_str(), flags);
+  if (fd < 0) FailIo("open", path);
+  const int rc = ::fsync(fd);
+  ::close(fd);
+  if (rc != 0) FailIo("write", path);
+}
+
+fs::path FolderOf(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
+  const fs::path folder = FolderOf(target_);
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
+    throw InputError("cannot write " + target_.string(), folder.string(),
+                     "an existing folder to write into");
+  }
+  if (fs::is_directory(target_, ignored)) {
+    throw InputError("cannot write " + target_.string(), target_.string(),
+                     "a file name, not a folder");
+  }
+  if (::access(folder.c_str(), W_OK) != 0) {
+    throw InputError("cannot write " + target_.string(), folder.string(), "a writable folder");
+  }
+  temp_ = folder / ("." + target_.filename().string() + "." + std::to_string(::getpid()) + ".tmp");
+}
+
+AtomicFile::~AtomicFile() {
+  if (committed_) return;
+  std::error_code ignored;
+  fs::remove(temp_, ignored);
+}
+
+void AtomicFile::Commit() {
+  SyncToDisk(temp_, O_WRONLY);
+  if (std::rename(temp_.c_str(), target_.c_str()) != 0) FailIo("rename to", target_);
+  committed_ = true;
+  SyncToDisk(FolderOf(target_), O_RDONLY | O_DIRECTORY);  // the rename itself survives a power cut
+}
+
+void WriteFileAtomic(const fs::path& target, std::string_view bytes) {
+  AtomicFile file(target);
+  {
+    std::ofstream out(file.temp_path(), std::ios::binary | std::ios::trunc);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    out.flush();
+    if (!out) FailIo("write", target);
+  }
+  file.Commit();
+}
+
+void RequireFile(const fs::path& path, const std::string& expected) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (!fs::exists(status)) throw InputError("no such file", path.string(), expected);
+  if (fs::is_directory(status)) throw InputError("is a folder", path.string(), expected);
+  if (!fs::is_regular_file(status)) throw InputError("not a file", path.string(), expected);
+  if (::access(path.c_str(), R_OK) != 0) throw InputError("not readable", path.string(), expected);
+}
+
+std::string ReadFile(const fs::path& path) {
+  RequireFile(path, "a readable file");
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  if (!in) throw InputError("read error", path.string(), "a readable file");
+  return std::move(bytes).str();
+}
+
+void MakeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder)) {
+    throw InputError("cannot create " + folder.string() + ": " + error.message(), folder.string(),
+                     "a folder or a path where one can be made");
+  }
+  if (::access(folder.c_str(), W_OK) != 0) {
+    throw InputError("cannot write", folder.string(), "a writable folder");
+  }
+}
+
+}  // namespace antigrasp

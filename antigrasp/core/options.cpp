@@ -1,0 +1,259 @@
+#include "antigrasp/core/options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+#define TOML_EXCEPTIONS 1
+#include <toml++/toml.h>
+
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/format.h"
+
+namespace antigrasp {
+namespace {
+
+template <class... Fs>
+struct Overloaded : Fs... {
+  using Fs::operator()...;
+};
+template <class... Fs>
+Overloaded(Fs...) -> Overloaded<Fs...>;
+
+using Assignment = std::function<void()>;
+
+std::string TomlText(const toml::node& node) {
+  std::ostringstream text;
+  node.visit([&](const auto& value) { text << value; });
+  return text.str();
+}
+
+[[noreturn]] void Refuse(const Option& option, const std::string& value,
+                         const std::string& origin) {
+  throw InputError(option.key + " = " + value, origin, Accepted(option));
+}
+
+// The edit distance of two short words, for "did you mean".
+std::size_t EditDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+const Option& Find(const std::vector<Option>& options, const std::string& key,
+                   const std::string& origin) {
+  const Option* nearest = nullptr;
+  std::size_t best = std::string::npos;
+  for (const Option& option : options) {
+    if (option.key == key) return option;
+    const std::size_t distance = EditDistance(option.key, key);
+    if (distance < best) {
+      best = distance;
+      nearest = &option;
+    }
+  }
+  throw InputError("unknown key " + key, origin,
+                   nearest ? "a known key; the nearest is " + nearest->key : "no keys");
+}
+
+// Checks a parsed value against the option and returns what will store it.
+Assignment Checked(const Option& option, const toml::node& node, const std::string& origin) {
+  const auto refuse = [&]() { Refuse(option, TomlText(node), origin); };
+  const auto number_in_range = [&](double number) {
+    if (!(number >= option.min && number <= option.max)) refuse();
+  };
+  return std::visit(
+      Overloaded{
+          [&](bool* target) -> Assignment {
+            if (!node.is_boolean()) refuse();
+            return [target, value = node.as_boolean()->get()] { *target = value; };
+          },
+          [&](int* target) -> Assignment {
+            if (!node.is_integer()) refuse();
+            const std::int64_t value = node.as_integer()->get();
+            number_in_range(static_cast<double>(value));
+            if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
+              refuse();
+            return [target, value] { *target = static_cast<int>(value); };
+          },
+          [&](std::uint64_t* target) -> Assignment {
+            if (!node.is_integer() || node.as_integer()->get() < 0) refuse();
+            return [target, value = node.as_integer()->get()] {
+              *target = static_cast<std::uint64_t>(value);
+            };
+          },
+          [&](double* target) -> Assignment {
+            if (!node.is_number()) refuse();
+            const double value = *node.value<double>();
+            number_in_range(value);
+            return [target, value] { *target = value; };
+          },
+          [&](std::string* target) -> Assignment {
+            if (!node.is_string()) refuse();
+            const std::string value = node.as_string()->get();
+            if (!option.choices.empty() && std::find(option.choices.begin(), option.choices.end(),
+                                                     value) == option.choices.end())
+              refuse();
+            return [target, value] { *target = value; };
+          },
+      },
+      option.target);
+}
+
+void Collect(const std::vector<Option>& options, const toml::table& table,
+             const std::string& prefix, const std::string& origin, bool with_lines,
+             std::vector<Assignment>* assignments) {
+  for (const auto& [name, node] : table) {
+    const std::string key = prefix + std::string(name.str());
+    if (const toml::table* inner = node.as_table()) {
+      Collect(options, *inner, key + ".", origin, with_lines, assignments);
+      continue;
+    }
+    const std::string where =
+        with_lines ? origin + ":" + std::to_string(node.source().begin.line) : origin;
+    assignments->push_back(Checked(Find(options, key, where), node, where));
+  }
+}
+
+// A TOML string with everything escaped that must be.
+std::string Quoted(const std::string& text) {
+  std::ostringstream out;
+  out << toml::value<std::string>(text);
+  return out.str();
+}
+
+}  // namespace
+
+void OptionTable::Add(std::string key, bool* target, std::string help) {
+  options_.push_back({.key = std::move(key), .target = target, .help = std::move(help)});
+}
+
+void OptionTable::Add(std::string key, int* target, double min, double max, std::string help) {
+  options_.push_back(
+      {.key = std::move(key), .target = target, .min = min, .max = max, .help = std::move(help)});
+}
+
+void OptionTable::Add(std::string key, std::uint64_t* target, std::string help) {
+  options_.push_back({.key = std::move(key), .target = target, .help = std::move(help)});
+}
+
+void OptionTable::Add(std::string key, double* target, double min, double max, std::string help) {
+  options_.push_back(
+      {.key = std::move(key), .target = target, .min = min, .max = max, .help = std::move(help)});
+}
+
+void OptionTable::Add(std::string key, std::string* target, std::vector<std::string> choices,
+                      std::string help) {
+  options_.push_back({.key = std::move(key),
+                      .target = target,
+                      .choices = std::move(choices),
+                      .help = std::move(help)});
+}
+
+void OptionTable::ApplyFile(const std::string& path) {
+  RequireFile(path, "a TOML configuration file");
+  ApplyText(ReadFile(path), path);
+}
+
+void OptionTable::ApplyText(std::string_view text, const std::string& origin) {
+  toml::table table;
+  try {
+    table = toml::parse(text, origin);
+  } catch (const toml::parse_error& error) {
+    throw InputError(std::string(error.description()),
+                     origin + ":" + std::to_string(error.source().begin.line), "valid TOML");
+  }
+  std::vector<Assignment> assignments;
+  Collect(options_, table, "", origin, true, &assignments);
+  for (const Assignment& assign : assignments) assign();
+}
+
+void OptionTable::ApplyOverride(const std::string& key_equals_value) {
+  const std::size_t equals = key_equals_value.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError(key_equals_value, "--set", "key=value, e.g. gan.batch=32");
+  }
+  ApplyValue(key_equals_value.substr(0, equals), key_equals_value.substr(equals + 1), "--set");
+}
+
+void OptionTable::ApplyValue(const std::string& key, const std::string& text,
+                             const std::string& origin) {
+  const Option& option = Find(options_, key, origin);
+  // A string may be given without the quotes TOML wants; the shell has eaten them.
+  const bool is_string = std::holds_alternative<std::string*>(option.target);
+  toml::table table;
+  try {
+    table = toml::parse("v = " + (is_string && !text.starts_with('"') ? Quoted(text) : text));
+  } catch (const toml::parse_error&) {
+    Refuse(option, text, origin);
+  }
+  if (table.size() != 1) Refuse(option, text, origin);
+  Checked(option, *table.get("v"), origin)();
+}
+
+std::string OptionTable::Dump() const {
+  std::ostringstream out;
+  std::string section;
+  for (const Option& option : options_) {
+    const std::size_t dot = option.key.rfind('.');
+    const std::string head = dot == std::string::npos ? "" : option.key.substr(0, dot);
+    if (head != section) {
+      out << (section.empty() ? "" : "\n") << "[" << head << "]\n";
+      section = head;
+    }
+    out << (dot == std::string::npos ? option.key : option.key.substr(dot + 1)) << " = "
+        << ValueText(option) << "  # " << option.help << "\n";
+  }
+  return out.str();
+}
+
+std::string Accepted(const Option& option) {
+  const auto range = [&](const std::string& noun) {
+    if (std::isinf(option.min) && std::isinf(option.max)) return noun;
+    if (std::isinf(option.max)) return noun + " of at least " + FormatDouble(option.min);
+    return noun + " in [" + FormatDouble(option.min) + ", " + FormatDouble(option.max) + "]";
+  };
+  return std::visit(
+      Overloaded{
+          [](bool*) -> std::string { return "true or false"; },
+          [&](int*) { return range("a whole number"); },
+          [](std::uint64_t*) -> std::string { return "a whole number of at least 0"; },
+          [&](double*) { return range("a number"); },
+          [&](std::string*) -> std::string {
+            if (option.choices.empty()) return "text";
+            std::string list = "one of ";
+            for (std::size_t i = 0; i < option.choices.size(); ++i)
+              list += (i ? ", " : "") + option.choices[i];
+            return list;
+          },
+      },
+      option.target);
+}
+
+std::string ValueText(const Option& option) {
+  return std::visit(Overloaded{
+                        [](bool* value) -> std::string { return *value ? "true" : "false"; },
+                        [](int* value) { return std::to_string(*value); },
+                        [](std::uint64_t* value) { return std::to_string(*value); },
+                        [](double* value) {
+                          const std::string text = FormatDouble(*value);
+                          // TOML tells floats from integers by their look.
+                          return text.find_first_of(".en") == std::string::npos ? text + ".0"
+                                                                                : text;
+                        },
+                        [](std::string* value) { return Quoted(*value); },
+                    },
+                    option.target);
+}
+
+}  // namespace antigrasp
