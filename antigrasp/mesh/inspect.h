@@ -20,15 +20,16 @@ struct MeshReport {
   int degenerate_faces = 0;        // repeated vertex or zero area
   int components = 0;              // connected by edges
   int boundary_edges = 0;
-  int genus = 0;  // of a closed, manifold, orientable single component; else 0
+  int nonmanifold_edges = 0;  // with more than two faces
+  int genus = 0;              // of a closed, manifold, orientable single component; else 0
   double volume = 0.0;
   double area = 0.0;
   Eigen::Vector3d center_of_mass = Eigen::Vector3d::Zero();
 
   // Printable: one closed, manifold, outward, non-self-intersecting component with volume > 0.
   bool IsSolid() const {
-    return finite && manifold && closed && outward && !self_intersecting &&
-           degenerate_faces == 0 && components == 1 && volume > 0.0;
+    return finite && manifold && closed && outward && !self_intersecting && degenerate_faces == 0 &&
+           components == 1 && volume > 0.0;
   }
 };
 

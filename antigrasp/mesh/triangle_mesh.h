@@ -35,6 +35,7 @@ double Volume(const TriangleMesh& mesh);
 Eigen::Vector3d CenterOfMass(const TriangleMesh& mesh);
 
 // v -> scale * v + translation for every vertex.
-TriangleMesh Transformed(const TriangleMesh& mesh, double scale, const Eigen::Vector3d& translation);
+TriangleMesh Transformed(const TriangleMesh& mesh, double scale,
+                         const Eigen::Vector3d& translation);
 
 }  // namespace antigrasp
