@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "antigrasp/core/rng.h"
+#include "antigrasp/mesh/triangle_mesh.h"
+#include "antigrasp/quality/contact.h"
+#include "antigrasp/quality/ray_scene.h"
+
+namespace antigrasp {
+
+// Points uniform over the area of a mesh.
+class SurfaceSampler {
+ public:
+  struct Sample {
+    Eigen::Vector3d point;
+    Eigen::Vector3d normal;  // outward unit normal of its face
+  };
+
+  explicit SurfaceSampler(const TriangleMesh& mesh);
+  double area() const { return cumulative_.empty() ? 0.0 : cumulative_.back(); }
+  Sample Draw(RngStream* rng) const;  // area() > 0; three uniform numbers
+
+ private:
+  const TriangleMesh& mesh_;
+  std::vector<double> cumulative_;  // area of the faces up to and including this one
+};
+
+// A direction uniform over the solid angle of the cone of this half angle about the unit `axis`;
+// two uniform numbers.
+Eigen::Vector3d DrawInCone(const Eigen::Vector3d& axis, double half_angle, RngStream* rng);
+
+// Draws antipodal grasps (paper III-B, Dex-Net 1.0): a point uniform over the surface, a direction
+// uniform over the friction cone about its inward normal, the opposite contact where a jaw coming
+// back along that line from the full opening first touches.
+class AntipodalSampler {
+ public:
+  // Both must outlive the sampler. Metres.
+  AntipodalSampler(const TriangleMesh& mesh, const RayScene& scene, double friction,
+                   double jaw_opening);
+
+  double area() const { return surface_.area(); }
+
+  // One candidate; nullopt unless both jaws, opened symmetrically about the contacts' midpoint,
+  // reach the two contacts first and neither slips. Always uses five uniform numbers.
+  std::optional<Grasp> Try(RngStream* rng) const;
+
+ private:
+  SurfaceSampler surface_;
+  const RayScene& scene_;
+  double friction_;
+  double jaw_opening_;
+};
+
+}  // namespace antigrasp

@@ -1,0 +1,110 @@
+#include "antigrasp/quality/wrench_dual.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace antigrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+bool Spans(const std::array<Contact, 2>& contacts, const Vector3d& com, const WrenchModel& model) {
+  double sum = com.sum() + model.friction + model.finger_radius + model.torque_scale;
+  for (const Contact& c : contacts) sum += c.point.sum() + c.normal.sum() + c.normal_force;
+  return std::isfinite(sum) && contacts[0].normal_force > 0.0 && contacts[1].normal_force > 0.0 &&
+         model.friction > 0.0 && model.finger_radius > 0.0 && model.torque_scale > 0.0 &&
+         (contacts[0].point - contacts[1].point).norm() > 0.0;
+}
+
+// The linear maps from (p_1, p_2) to the numbers of a DualPoint.
+struct DualMap {
+  Vector3d line;  // D
+  double length;
+  double torque_scale;
+  Vector3d arm;  // r_1
+  Vector3d kernel_force;
+  double kernel2;
+  std::array<Vector3d, 2> inward;
+  std::array<double, 2> along;  // d_i . D
+  std::size_t base;             // the contact whose torsion bounds u directly: larger |d_i . D|
+
+  DualPoint At(const Vector3d& p1, const Vector3d& p2, double t) const {
+    const Vector3d twist = line.cross(p2 - p1);
+    const Vector3d y_force = p1 - twist.cross(arm) / length;
+    const double shift = y_force.dot(kernel_force) / kernel2;
+    const std::size_t other = 1 - base;
+    const double base_ratio = inward[base].dot(twist) / along[base];
+    DualPoint point;
+    point.y << y_force - shift * kernel_force, (twist - shift * line) / (torque_scale * length);
+    point.g = (p1 - p2).dot(line);
+    point.h = std::abs(along[other]) * base_ratio -
+              std::copysign(1.0, along[other]) * inward[other].dot(twist);
+    point.offset = base_ratio - shift;
+    point.t = t;
+    return point;
+  }
+};
+
+// Relative slack of the test whether a vertex of C lies within the torsion bounds: a vertex on the
+// bound must not be lost to rounding, one just outside changes the norm by as little.
+constexpr double kOnBound = 1e-13;
+
+}  // namespace
+
+double WrenchDual::Norm2Over(double y_norm2, double h, double offset) const {
+  if (!(std::abs(h) <= (b + e * a) * (1.0 + kOnBound))) return 0.0;
+  const double slope = std::max(e, 1e-100);  // e = 0: the second pair of bounds limits h only
+  const double upper = std::clamp((h + b) / slope, -a, a) - offset;
+  const double lower = std::clamp((h - b) / slope, -a, a) - offset;
+  return y_norm2 + std::max(upper * upper, lower * lower) * kernel2;
+}
+
+std::optional<WrenchDual> MakeWrenchDual(const std::array<Contact, 2>& contacts,
+                                         const Vector3d& com, const WrenchModel& model,
+                                         const TangentFrames& frames) {
+  if (!Spans(contacts, com, model)) return std::nullopt;
+  WrenchDual dual;
+  DualMap map;
+  const Vector3d between = contacts[1].point - contacts[0].point;
+  map.length = between.norm();
+  map.line = between / map.length;
+  map.torque_scale = model.torque_scale;
+  map.arm = contacts[0].point - com;
+  map.kernel_force = -map.line.cross(map.arm) / map.length;
+  const double kernel_torque = 1.0 / (model.torque_scale * map.length);
+  map.kernel2 = map.kernel_force.squaredNorm() + kernel_torque * kernel_torque;
+
+  std::array<double, 2> bound;  // torsion rows: |d_i . twist + lambda d_i . D| <= bound
+  for (std::size_t i = 0; i < 2; ++i) {
+    map.inward[i] = -contacts[i].normal;
+    map.along[i] = map.inward[i].dot(map.line);
+    bound[i] = map.length / (std::numbers::pi * model.finger_radius * model.finger_radius *
+                             model.friction * contacts[i].normal_force);
+  }
+  map.base = std::abs(map.along[0]) >= std::abs(map.along[1]) ? 0 : 1;
+  if (std::abs(map.along[map.base]) < 1e-14) return std::nullopt;  // no torsion about the line
+
+  dual.apex = map.At(map.inward[0] / contacts[0].normal_force,
+                     map.inward[1] / contacts[1].normal_force, 1.0);
+  const double step = std::numbers::pi / model.cone_edges;
+  for (std::size_t i = 0; i < 2; ++i) {
+    dual.edges[i].reserve(static_cast<std::size_t>(model.cone_edges));
+    for (int j = 0; j < model.cone_edges; ++j) {
+      // Polar of the friction pyramid: its edges are the outward normals of the pyramid's sides.
+      const double angle = (2 * j + 1) * step;
+      const Vector3d c = -model.friction * std::cos(step) * map.inward[i] +
+                         std::cos(angle) * frames[i][0] + std::sin(angle) * frames[i][1];
+      dual.edges[i].push_back(i == 0 ? map.At(c, Vector3d::Zero(), 0.0)
+                                     : map.At(Vector3d::Zero(), c, 0.0));
+    }
+  }
+  dual.a = bound[map.base] / std::abs(map.along[map.base]);
+  dual.b = bound[1 - map.base];
+  dual.e = std::abs(map.along[1 - map.base]);
+  dual.kernel2 = map.kernel2;
+  return dual;
+}
+
+}  // namespace antigrasp

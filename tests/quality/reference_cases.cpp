@@ -1,0 +1,72 @@
+#include "tests/quality/reference_cases.h"
+
+#include <Eigen/Geometry>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+namespace antigrasp {
+namespace {
+
+std::vector<std::string> Split(const std::string& line) {
+  std::vector<std::string> fields;
+  std::stringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+class Row {
+ public:
+  Row(const std::vector<std::string>& names, const std::vector<std::string>& fields) {
+    for (std::size_t i = 0; i < names.size(); ++i) fields_[names[i]] = fields.at(i);
+  }
+  const std::string& Text(const std::string& name) const { return fields_.at(name); }
+  double Number(const std::string& name) const {
+    return std::strtod(Text(name).c_str(), nullptr);  // reads nan
+  }
+  Eigen::Vector3d Vector(const std::string& prefix) const {
+    return {Number(prefix + "x"), Number(prefix + "y"), Number(prefix + "z")};
+  }
+
+ private:
+  std::map<std::string, std::string> fields_;
+};
+
+ReferenceCase Parse(const Row& row) {
+  ReferenceCase c;
+  c.id = row.Text("id");
+  c.family = row.Text("family");
+  c.com = row.Vector("com");
+  c.model = {row.Number("friction_coef"), static_cast<int>(row.Number("num_cone_faces")),
+             row.Number("finger_radius"), row.Number("torque_scaling")};
+  c.has_jaw_direction = row.Text("has_in_direction") == "1";
+  c.cone_status = row.Text("cone_status");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string k = std::to_string(i + 1);
+    c.contacts[i] = {row.Vector("p" + k), row.Vector("n" + k), row.Number("normal_force" + k)};
+    if (c.cone_status.find(k) != std::string::npos) c.contacts[i].normal_force = 0.0;
+    const Eigen::Vector3d t1 = row.Vector("t1c" + k + "_");
+    c.frames[i] = {t1, Eigen::Vector3d(-c.contacts[i].normal).cross(t1)};
+    c.jaw_direction[i] = row.Vector("in" + k);
+  }
+  c.matrix_norm = row.Number("G_frobenius");
+  c.epsilon = row.Number("eps_exact");
+  c.epsilon_own_frame = row.Number("eps_exact_analytic_frame");
+  return c;
+}
+
+}  // namespace
+
+std::vector<ReferenceCase> ReadReferenceCases() {
+  std::ifstream file(ANTIGRASP_TEST_DATA "/quality/contacts.csv");
+  std::string line;
+  if (!std::getline(file, line)) throw std::runtime_error("contacts.csv is missing");
+  const std::vector<std::string> names = Split(line);
+  std::vector<ReferenceCase> cases;
+  while (std::getline(file, line)) cases.push_back(Parse(Row(names, Split(line))));
+  return cases;
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "antigrasp/quality/epsilon.h"
+
+// tests/data/quality/contacts.csv: 500 two-contact soft-finger grasps with the answers of a port of
+// Dex-Net's own metric, its hull made exact with Qhull (option Qt).
+namespace antigrasp {
+
+struct ReferenceCase {
+  std::string id, family;
+  std::array<Contact, 2> contacts;  // normal_force as the reference applied it, 0 where it slipped
+  Eigen::Vector3d com;
+  WrenchModel model;
+  TangentFrames frames;  // from Dex-Net's grid search
+  bool has_jaw_direction = false;
+  std::array<Eigen::Vector3d, 2> jaw_direction;  // not unit
+  std::string cone_status;                       // ok, slip1, slip2, slip12
+  double matrix_norm = 0.0;                      // Frobenius; NaN where it slipped
+  double epsilon = 0.0;                          // with `frames`
+  double epsilon_own_frame = 0.0;                // with the continuum frame
+};
+
+std::vector<ReferenceCase> ReadReferenceCases();
+
+}  // namespace antigrasp
