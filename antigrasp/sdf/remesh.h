@@ -15,12 +15,12 @@ enum class RemeshStatus {
   kOk,
   kNonFinite,
   kEmpty,
-  kTouchesBorder,   // the surface leaves the grid: a border node is inside
-  kGaps,            // an edge without two faces
-  kNonManifold,     // a vertex with more than one fan
+  kTouchesBorder,  // the surface leaves the grid: a border node is inside
+  kGaps,           // an edge without two faces
+  kNonManifold,    // a vertex with more than one fan
   kNonOrientable,
   kSelfIntersecting,
-  kDisjoint,        // more than one component (a cavity counts)
+  kDisjoint,  // more than one component (a cavity counts)
 };
 inline constexpr int kNumRemeshStatuses = 9;
 std::string_view Name(RemeshStatus status);  // "ok", "non_finite", "empty", ...

@@ -18,7 +18,9 @@ struct SdfGrid {
 
   std::size_t Index(int x, int y, int z) const {
     return (static_cast<std::size_t>(z) * static_cast<std::size_t>(n) +
-            static_cast<std::size_t>(y)) * static_cast<std::size_t>(n) + static_cast<std::size_t>(x);
+            static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(n) +
+           static_cast<std::size_t>(x);
   }
   Eigen::Vector3d Node(int x, int y, int z) const {
     return origin + spacing * Eigen::Vector3d(x, y, z);
