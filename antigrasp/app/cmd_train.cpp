@@ -1,0 +1,105 @@
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "antigrasp/app/commands.h"
+#include "antigrasp/app/console.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/train/cem_run.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TrainFlags {
+  std::string config;
+  std::string out;
+  std::string resume;
+  std::vector<std::string> overrides;
+  std::optional<std::uint64_t> seed;
+  std::optional<int> threads;
+  std::string device;
+  bool or_resume = false;
+  bool overwrite = false;
+};
+
+RunConfig ReadConfig(const TrainFlags& flags) {
+  RunConfig config;
+  OptionTable table;
+  Bind(&table, &config);
+  if (!flags.config.empty()) table.ApplyFile(flags.config);
+  for (const std::string& text : flags.overrides) table.ApplyOverride(text);
+  if (flags.seed) config.seed = *flags.seed;
+  if (flags.threads) table.ApplyValue("run.threads", std::to_string(*flags.threads), "--threads");
+  if (!flags.device.empty()) config.device = flags.device;
+  Validate(config, flags.config.empty() ? "configuration" : flags.config);
+  return config;
+}
+
+RunResult Start(const TrainFlags& flags, RunObserver* console) {
+  const RunConfig config = ReadConfig(flags);
+  const RunFolder run{flags.out};
+  if (flags.or_resume && run.HoldsARun()) {
+    if (ToToml(ConfigOfRun(run.root)) != ToToml(config)) {
+      throw InputError("the run in " + flags.out + " was started with other settings",
+                       run.Config().string(), "the same settings, --overwrite or another --out");
+    }
+    return ResumeRun(run.root, console);
+  }
+  if (flags.overwrite && run.HoldsARun()) fs::remove_all(run.root);
+  return StartRun(config, flags.out, console);
+}
+
+void Train(const TrainFlags& flags) {
+  if (flags.resume.empty() == flags.out.empty()) {
+    throw InputError("train needs a folder", "command line",
+                     "--out RUN for a new run or --resume RUN to go on");
+  }
+  if (!flags.resume.empty() && (!flags.config.empty() || !flags.overrides.empty())) {
+    throw InputError("--resume with a configuration", "command line",
+                     "--resume RUN alone: a run goes on with the settings it began with");
+  }
+  ConsoleObserver console;
+  const std::string folder = flags.resume.empty() ? flags.out : flags.resume;
+  try {
+    const RunResult result =
+        flags.resume.empty() ? Start(flags, &console) : ResumeRun(flags.resume, &console);
+    std::printf("%s", StatisticsTable(result.stages, result.control).c_str());
+    std::printf("run: %s\n", folder.c_str());
+    const RunFolder run{folder};
+    if (fs::exists(run.Stl())) {
+      std::printf("least graspable objects, mm: %s\n", run.Stl().string().c_str());
+    }
+  } catch (const Interrupted&) {
+    if (RunFolder{folder}.HoldsARun()) {
+      spdlog::warn("stopped; go on with: antigrasp train --resume {}", folder);
+    }
+    throw;
+  }
+}
+
+}  // namespace
+
+void AddTrainCommand(CLI::App* app) {
+  const auto flags = std::make_shared<TrainFlags>();
+  CLI::App* command = app->add_subcommand("train", "Run CEM + GAN episodes from a prior set");
+  command->add_option("CONFIG", flags->config, "configuration (TOML); without one, defaults");
+  command->add_option("--out", flags->out, "folder of the new run");
+  command->add_option("--resume", flags->resume, "go on with the run in this folder");
+  command->add_flag("--or-resume", flags->or_resume,
+                    "if --out holds a run of the same settings, go on with it");
+  command->add_flag("--overwrite", flags->overwrite, "delete a run that --out holds");
+  command->add_option("--set", flags->overrides, "override a setting: --set gan.batch=16")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--seed", flags->seed, "same as --set run.seed=");
+  command->add_option("--threads", flags->threads, "same as --set run.threads=");
+  command->add_option("--device", flags->device, "same as --set run.device=");
+  command->callback([flags] { Train(*flags); });
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace antigrasp {
+
+// One function per command: adds the subcommand with its flags to `app`; its callback does the work
+// and throws on failure (main() turns that into a line and an exit code).
+void AddDatasetCommand(CLI::App* app);
+void AddTrainCommand(CLI::App* app);
+void AddSampleCommand(CLI::App* app);
+void AddRemeshCommand(CLI::App* app);
+void AddEvaluateCommand(CLI::App* app);
+void AddExportCommand(CLI::App* app);
+void AddInfoCommand(CLI::App* app);
+
+}  // namespace antigrasp

@@ -1,0 +1,87 @@
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "antigrasp/app/commands.h"
+#include "antigrasp/app/console.h"
+#include "antigrasp/core/error.h"
+
+namespace antigrasp {
+namespace {
+
+enum ExitCode { kOk = 0, kFailure = 1, kBadInput = 2, kInterrupted = 130 };
+
+int Fail(int code, const char* message) {
+  std::fprintf(stderr, "antigrasp: %s\n", message);
+  return code;
+}
+
+void AddHelpCommand(CLI::App* app, std::string* topic) {
+  CLI::App* command = app->add_subcommand("help", "Show this, or the help of a command");
+  command->add_option("COMMAND", *topic, "command to explain");
+  command->callback([app, topic] {
+    const CLI::App* about = app;
+    if (!topic->empty()) {
+      const auto known = app->get_subcommands([&](CLI::App* c) { return c->get_name() == *topic; });
+      about = known.empty() ? nullptr : known.front();
+    }
+    if (about == nullptr) throw InputError("no command " + *topic, "help", "one of antigrasp help");
+    std::fputs(
+        about->help("", topic->empty() ? CLI::AppFormatMode::Normal : CLI::AppFormatMode::All)
+            .c_str(),
+        stdout);
+  });
+}
+
+int Run(int argc, char** argv) {
+  CLI::App app(
+      "Designs objects that look ordinary and that a parallel-jaw gripper cannot hold "
+      "(Adversarial Grasp Objects, Wang et al. 2019)",
+      "antigrasp");
+  app.set_version_flag("--version",
+                       std::string("antigrasp " ANTIGRASP_VERSION " (" ANTIGRASP_COMMIT ")"));
+  app.require_subcommand(1);
+  std::string topic;
+  AddDatasetCommand(&app);
+  AddTrainCommand(&app);
+  AddSampleCommand(&app);
+  AddRemeshCommand(&app);
+  AddEvaluateCommand(&app);
+  AddExportCommand(&app);
+  AddInfoCommand(&app);
+  AddHelpCommand(&app, &topic);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);  // --help, --version
+  } catch (const CLI::ParseError& error) {
+    return Fail(kBadInput, (std::string(error.what()) + "; see antigrasp help").c_str());
+  }
+  return kOk;
+}
+
+}  // namespace
+}  // namespace antigrasp
+
+int main(int argc, char** argv) {
+  using namespace antigrasp;
+  spdlog::set_default_logger(spdlog::stderr_color_mt("antigrasp"));
+  spdlog::set_pattern("[%H:%M:%S] %^%v%$");
+  InstallSignalHandlers();
+  try {
+    return Run(argc, argv);
+  } catch (const InputError& error) {
+    return Fail(kBadInput, error.what());
+  } catch (const Interrupted&) {
+    return Fail(kInterrupted, "interrupted");
+  } catch (const std::filesystem::filesystem_error& error) {
+    return Fail(kFailure, error.what());
+  } catch (const std::exception& error) {
+    return Fail(kFailure, error.what());
+  }
+}

@@ -1,0 +1,80 @@
+#include "antigrasp/train/cem_run.h"
+
+#include <spdlog/spdlog.h>
+
+#include "antigrasp/checkpoints/checkpoint.h"
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/train/episode_loop.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+
+ShapeSet PriorOf(const RunConfig& config, RunObserver* observer) {
+  if (!config.prior_file.empty()) return ReadShapeSet(config.prior_file);
+  PriorSetOptions options = config.prior;
+  options.resolution = config.model.resolution;
+  options.threads = config.threads;
+  return MakePriorSet(
+      options, observer->Phase("making " + std::to_string(options.count) + " " + options.kind));
+}
+
+// The control begins where the run it belongs to ended episode 0: same networks, same prior.
+void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder& control) {
+  RunConfig forked = config;
+  forked.cem.select = "random";
+  forked.cem.control = false;
+  forked.stl_count = 0;
+  MakeFolder(control.root);
+  WriteFileAtomic(control.Prior(), ReadFile(run.Prior()));
+  Checkpoint checkpoint = ReadCheckpoint(run.EpisodeCheckpoint(0));
+  checkpoint.config = ToToml(forked);
+  GanTrainer trainer = MakeTrainer(forked);
+  ReadNetworks(run.EpisodeCheckpoint(0), [&](auto* archive) { trainer.Load(archive); });
+  WriteCheckpoint(control.Latest(), checkpoint, [&](auto* archive) { trainer.Save(archive); });
+  // Last: a folder with a configuration holds a run.
+  WriteFileAtomic(control.Config(), checkpoint.config);
+}
+
+RunResult Finish(const RunConfig& config, const RunFolder& folder, RunObserver* observer) {
+  RunResult result;
+  result.stages = RunEpisodes(config, folder, observer);
+  if (!config.cem.control) return result;
+  const RunFolder control{folder.Control()};
+  if (!control.HoldsARun()) ForkControl(config, folder, control);
+  spdlog::info("control run: the same retraining on elites drawn at random");
+  result.control = RunEpisodes(ConfigOfRun(control.root), control, observer);
+  return result;
+}
+
+}  // namespace
+
+RunConfig ConfigOfRun(const fs::path& folder) {
+  const RunFolder run{folder};
+  RequireFile(run.Config(), "the config.toml of a run");
+  return FromToml(ReadFile(run.Config()), run.Config().string());
+}
+
+RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver* observer) {
+  const RunFolder run{folder};
+  if (run.HoldsARun()) {
+    throw InputError("a run is already there", folder.string(),
+                     "a new folder, --resume to go on, or --overwrite to start again");
+  }
+  Validate(config, "configuration");
+  const GanTrainer probe = MakeTrainer(config);  // refuses a device that is not there, first
+  const ShapeSet prior = PriorOf(config, observer);
+  NetworkValuesOf(prior, config.model, config.prior_file);  // refuses an unusable set, too
+  MakeFolder(folder);
+  WriteShapeSet(run.Prior(), prior);
+  WriteFileAtomic(run.Config(), ToToml(config));
+  return Finish(config, run, observer);
+}
+
+RunResult ResumeRun(const fs::path& folder, RunObserver* observer) {
+  return Finish(ConfigOfRun(folder), RunFolder{folder}, observer);
+}
+
+}  // namespace antigrasp

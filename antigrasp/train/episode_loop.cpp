@@ -1,0 +1,239 @@
+#include "antigrasp/train/episode_loop.h"
+
+#include <spdlog/spdlog.h>
+#include <torch/torch.h>
+
+#include <array>
+#include <cmath>
+
+#include "antigrasp/checkpoints/checkpoint.h"
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/format.h"
+#include "antigrasp/core/rng.h"
+#include "antigrasp/train/elites.h"
+#include "antigrasp/train/run_output.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kRecordEvery = 10;  // updates between rows of losses.csv
+
+// The state of section V-B's loop between two lines of it.
+class EpisodeLoop {
+ public:
+  EpisodeLoop(const RunConfig& config, const RunFolder& folder, RunObserver* observer);
+  std::vector<StageStatistics> Run();
+
+ private:
+  void Restore();
+  void ScorePrior();
+  void TrainEpisode();
+  torch::Tensor SampleStage();
+  std::vector<std::int64_t> Select(const ScoredStage& scored) const;
+  void Record(const ScoredStage& scored, const std::vector<std::int64_t>& elites);
+  void BeginEpisode(int episode);
+  torch::Tensor TrainingSet(const ScoredStage& scored,
+                            const std::vector<std::int64_t>& elites) const;
+  void Save(const fs::path& path, bool finished = false) const;
+  int episode() const { return trainer_.episode(); }
+
+  const RunConfig& config_;
+  const RunFolder& folder_;
+  RunObserver* observer_;
+  GanTrainer trainer_;
+  torch::Tensor prior_;   // network values of the prior set, float16
+  torch::Tensor shapes_;  // what the current episode trains on, float16
+  std::vector<std::array<double, 3>> losses_;
+  std::vector<StageStatistics> rows_;
+  bool finished_ = false;
+};
+
+EpisodeLoop::EpisodeLoop(const RunConfig& config, const RunFolder& folder, RunObserver* observer)
+    : config_(config), folder_(folder), observer_(observer), trainer_(MakeTrainer(config)) {
+  prior_ = NetworkValuesOf(ReadShapeSet(folder.Prior()), config.model, folder.Prior().string());
+  shapes_ = prior_;
+}
+
+std::vector<StageStatistics> EpisodeLoop::Run() {
+  Restore();
+  if (finished_) return rows_;
+  if (rows_.empty()) ScorePrior();
+  while (true) {
+    TrainEpisode();             // theta: the GAN on the shapes
+    const ScoredStage scored =  // x ~ p_theta, g_gamma(x, Q)
+        ScoreStage(SampleStage(), config_, StageName(episode(), "scoring"), observer_);
+    const std::vector<std::int64_t> elites = Select(scored);  // the rare event: lowest g
+    Record(scored, elites);
+    if (episode() == config_.cem.episodes) {
+      ExportLeastGraspable(scored, config_, folder_);
+      Save(folder_.Latest(), /*finished=*/true);
+      return rows_;
+    }
+    shapes_ = TrainingSet(scored, elites);
+    BeginEpisode(episode() + 1);
+  }
+}
+
+void EpisodeLoop::Restore() {
+  if (!fs::exists(folder_.Latest())) {
+    trainer_.BeginEpisode(0, config_.cem.prior_iterations, /*restart_networks=*/true);
+    return;
+  }
+  const Checkpoint checkpoint = ReadCheckpoint(folder_.Latest());
+  ReadNetworks(folder_.Latest(), [&](auto* archive) { trainer_.Load(archive); });
+  shapes_ = checkpoint.shapes;
+  rows_ = StatisticsFromCsv(checkpoint.statistics, folder_.Latest().string());
+  finished_ = checkpoint.finished;
+  const torch::Tensor losses = checkpoint.losses.contiguous();
+  const double* data = losses.data_ptr<double>();
+  for (std::int64_t i = 0; i < losses.size(0); ++i) {
+    losses_.push_back({data[3 * i], data[3 * i + 1], data[3 * i + 2]});
+  }
+  if (!finished_) {
+    spdlog::info("resuming {} at episode {}, update {} of {}", folder_.root.string(), episode(),
+                 trainer_.step(), trainer_.iterations());
+  }
+}
+
+void EpisodeLoop::ScorePrior() {
+  const std::int64_t all = prior_.size(0);
+  const std::int64_t scored_count =
+      config_.cem.prior_scored == 0 ? all : std::min<std::int64_t>(all, config_.cem.prior_scored);
+  const ScoredStage scored =
+      ScoreStage(prior_.slice(0, 0, scored_count), config_, "scoring the prior set", observer_);
+  rows_.push_back(Summarize(-1, scored, prior_, config_));
+  if (rows_[0].graspability.count == 0) {
+    throw InputError("no usable shape in the prior set", folder_.Prior().string(),
+                     "shapes that remesh to one closed solid");
+  }
+  WriteFileAtomic(folder_.PriorScores(), ScoresCsv(scored));
+  LogStage(rows_.back(), rows_);
+}
+
+void EpisodeLoop::TrainEpisode() {
+  const ProgressFn progress = observer_->Phase(StageName(episode(), "training"));
+  while (trainer_.step() < trainer_.iterations()) {
+    const GanLosses losses = trainer_.Step(shapes_);
+    if (trainer_.step() % kRecordEvery == 0) {
+      losses_.push_back({double(trainer_.step()), losses.discriminator, losses.generator});
+      observer_->Detail(LossText(losses.discriminator, losses.generator));
+    }
+    const bool stop = observer_->StopRequested();
+    if (stop || trainer_.step() % config_.cem.checkpoint_every == 0) Save(folder_.Latest());
+    if (stop) throw Interrupted();
+    progress(trainer_.step(), trainer_.iterations());
+  }
+  MakeFolder(folder_.Episode(episode()));
+  Save(folder_.EpisodeCheckpoint(episode()));
+  Save(folder_.Latest());
+}
+
+torch::Tensor EpisodeLoop::SampleStage() {
+  constexpr std::int64_t kChunk = 64;
+  const std::uint64_t seed =
+      RngStream(config_.seed, "stage", static_cast<std::uint64_t>(episode())).NextU64();
+  const ProgressFn progress = observer_->Phase(StageName(episode(), "sampling"));
+  const std::int64_t count = config_.cem.samples;
+  std::vector<torch::Tensor> chunks;
+  for (std::int64_t first = 0; first < count; first += kChunk) {
+    chunks.push_back(trainer_.Sample(seed, first, std::min(kChunk, count - first)));
+    progress(std::min(first + kChunk, count), count);
+  }
+  return torch::cat(chunks);
+}
+
+std::vector<std::int64_t> EpisodeLoop::Select(const ScoredStage& scored) const {
+  const std::int64_t keep = config_.cem.keep;
+  std::vector<std::int64_t> elites = config_.cem.select == "random"
+                                         ? RandomKeep(scored.graspabilities, keep, config_.seed,
+                                                      static_cast<std::uint64_t>(episode()))
+                                         : LeastGraspable(scored.graspabilities, keep);
+  if (elites.empty()) {
+    throw RuntimeFailure("episode " + std::to_string(episode()) + ": none of " +
+                         std::to_string(config_.cem.samples) +
+                         " samples is a usable object; the networks of that episode are in " +
+                         folder_.Latest().string());
+  }
+  if (static_cast<std::int64_t>(elites.size()) < keep) {
+    spdlog::warn("only {} of {} samples are usable: fewer elites than cem.keep = {}", elites.size(),
+                 config_.cem.samples, keep);
+  }
+  return elites;
+}
+
+void EpisodeLoop::Record(const ScoredStage& scored, const std::vector<std::int64_t>& elites) {
+  StageStatistics row = Summarize(episode(), scored, prior_, config_);
+  for (const std::int64_t i : elites) {
+    const double value = scored.graspabilities[static_cast<std::size_t>(i)];
+    row.elite_threshold = std::fmax(row.elite_threshold, value);
+  }
+  rows_.push_back(row);
+  WriteFileAtomic(folder_.Episode(episode()) / "scores.csv", ScoresCsv(scored));
+  WriteFileAtomic(folder_.Episode(episode()) / "losses.csv", LossesCsv(losses_));
+  WriteFileAtomic(folder_.Statistics(), StatisticsToCsv(rows_));
+  WriteElites(folder_.Episode(episode()) / "elites.h5", scored, elites, episode(), config_);
+  LogStage(row, rows_);
+  WarnIfCollapsed(row, rows_);
+}
+
+torch::Tensor EpisodeLoop::TrainingSet(const ScoredStage& scored,
+                                       const std::vector<std::int64_t>& elites) const {
+  const torch::Tensor kept =
+      scored.values.index_select(0, torch::tensor(elites, torch::kLong)).to(torch::kHalf);
+  const auto replayed = std::min<std::int64_t>(
+      prior_.size(0), std::llround(config_.cem.prior_fraction * double(elites.size())));
+  if (replayed == 0) return kept;
+  const std::vector<double> every(static_cast<std::size_t>(prior_.size(0)), 0.0);
+  const std::uint64_t seed = RngStream(config_.seed, "replay").NextU64();
+  const std::vector<std::int64_t> drawn =
+      RandomKeep(every, replayed, seed, static_cast<std::uint64_t>(episode()));
+  return torch::cat({kept, prior_.index_select(0, torch::tensor(drawn, torch::kLong))});
+}
+
+void EpisodeLoop::BeginEpisode(int episode) {
+  losses_.clear();
+  trainer_.BeginEpisode(episode, config_.cem.iterations, config_.cem.restart);
+  Save(folder_.Latest());
+}
+
+void EpisodeLoop::Save(const fs::path& path, bool finished) const {
+  Checkpoint checkpoint;
+  checkpoint.config = ToToml(config_);
+  checkpoint.statistics = StatisticsToCsv(rows_);
+  checkpoint.shapes = shapes_;
+  checkpoint.finished = finished;
+  checkpoint.losses = torch::zeros({static_cast<std::int64_t>(losses_.size()), 3}, torch::kDouble);
+  for (std::size_t i = 0; i < losses_.size(); ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      checkpoint.losses[static_cast<std::int64_t>(i)][static_cast<std::int64_t>(j)] = losses_[i][j];
+    }
+  }
+  WriteCheckpoint(path, checkpoint, [&](auto* archive) { trainer_.Save(archive); });
+}
+
+}  // namespace
+
+std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolder& folder,
+                                         RunObserver* observer) {
+  return EpisodeLoop(config, folder, observer).Run();
+}
+
+GanTrainer MakeTrainer(const RunConfig& config) {
+  at::set_num_threads(config.threads > 0 ? config.threads : HardwareThreads());
+  const std::string expected = "a device this LibTorch offers: cpu" +
+                               std::string(torch::cuda::is_available() ? ", cuda" : " only");
+  try {
+    const torch::Device device(config.device);
+    if (device.is_cuda() && !torch::cuda::is_available()) {
+      throw InputError("run.device = " + config.device, "--device", expected);
+    }
+    return GanTrainer(config.model, config.gan, config.seed, device);
+  } catch (const c10::Error&) {
+    throw InputError("run.device = " + config.device, "--device", expected);
+  }
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "antigrasp/core/options.h"
+#include "antigrasp/datasets/prior_set.h"
+#include "antigrasp/models/model_options.h"
+#include "antigrasp/quality/metric_options.h"
+#include "antigrasp/train/gan_options.h"
+
+namespace antigrasp {
+
+// The cross-entropy loop of V-B and VI-C.
+struct CemOptions {
+  int episodes = 3;              // resampling rounds after episode 0, the GAN of the prior set
+  int prior_iterations = 16000;  // GAN updates in episode 0
+  int iterations = 16000;        // GAN updates in every later episode
+  int samples = 2500;            // objects drawn from the generator per episode
+  int keep = 500;                // elites: the least graspable of them
+  std::string select = "graspability";  // or "random": the control run
+  bool restart = false;                 // fresh networks each episode instead of going on
+  double prior_fraction = 0.0;          // prior shapes mixed into the elites, as a share of `keep`
+  bool check_self_intersection = true;
+  bool control = false;        // also run the random-keep control from the same episode 0
+  int prior_scored = 500;      // prior shapes scored for kappa; 0 = all
+  int compared = 500;          // shapes per side behind coverage and near-duplicates
+  int checkpoint_every = 500;  // GAN updates between checkpoints
+};
+void Bind(OptionTable* table, CemOptions* options);  // keys "cem.*"
+
+// Everything a run depends on. Saved resolved as RUN/config.toml and inside every checkpoint.
+struct RunConfig {
+  std::uint64_t seed = 1;
+  int threads = 0;             // 0 = all; results are reproducible at the same number
+  std::string device = "cpu";  // cpu, cuda, cuda:1
+  std::string prior_file;      // an SDF file instead of a synthetic set
+  PriorSetOptions prior;
+  int stl_count = 10;         // least graspable objects exported at the end
+  double stl_size_mm = 60.0;  // their largest extent
+  ModelOptions model;
+  GanOptions gan;
+  CemOptions cem;
+  MetricOptions metric;
+};
+void Bind(OptionTable* table, RunConfig* config);
+
+// The resolved configuration as TOML, and back. InputError names `origin`.
+std::string ToToml(const RunConfig& config);
+RunConfig FromToml(const std::string& toml, const std::string& origin);
+
+// InputError for combinations no single range can refuse (keep > samples, ...).
+void Validate(const RunConfig& config, const std::string& origin);
+
+}  // namespace antigrasp

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace antigrasp {
+
+// Where a run keeps its files (docs/formats.md).
+struct RunFolder {
+  std::filesystem::path root;
+
+  std::filesystem::path Config() const { return root / "config.toml"; }
+  std::filesystem::path Prior() const { return root / "prior.h5"; }
+  std::filesystem::path PriorScores() const { return root / "prior_scores.csv"; }
+  std::filesystem::path Latest() const { return root / "checkpoint.pt"; }
+  std::filesystem::path Statistics() const { return root / "statistics.csv"; }
+  std::filesystem::path Stl() const { return root / "stl"; }
+  std::filesystem::path Control() const { return root / "control"; }
+  std::filesystem::path Episode(int episode) const {
+    return root / ("episode_" + std::to_string(episode));
+  }
+  std::filesystem::path EpisodeCheckpoint(int e) const { return Episode(e) / "checkpoint.pt"; }
+
+  bool HoldsARun() const { return std::filesystem::exists(Config()); }
+};
+
+}  // namespace antigrasp

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "antigrasp/core/parallel.h"
+
+namespace antigrasp {
+
+// How a run shows what it does and hears that it should stop. The application draws bars; tests
+// count calls.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  // A new piece of work a person waits for. The returned function may throw Interrupted.
+  virtual ProgressFn Phase(const std::string& label) = 0;
+  // Shown beside the current bar ("L_D 1.93  L_G 0.12").
+  virtual void Detail(const std::string& text) = 0;
+  virtual bool StopRequested() const = 0;
+};
+
+}  // namespace antigrasp

@@ -1,0 +1,114 @@
+#include "antigrasp/train/run_output.h"
+
+#include <spdlog/spdlog.h>
+#include <torch/torch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/format.h"
+#include "antigrasp/core/rng.h"
+#include "antigrasp/mesh/fit.h"
+#include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/train/elites.h"
+
+namespace antigrasp {
+namespace {
+
+const StageStatistics* FindStage(const std::vector<StageStatistics>& rows, int stage) {
+  const auto found = std::find_if(rows.begin(), rows.end(),
+                                  [&](const StageStatistics& row) { return row.stage == stage; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+std::string KappaText(const StageStatistics& row, const std::vector<StageStatistics>& rows) {
+  const StageStatistics* prior = FindStage(rows, -1);
+  if (row.stage < 0 || prior == nullptr) return "";
+  const MeanInterval kappa = Ratio(row.graspability, prior->graspability);
+  return fmt::format(", {:.2f} +-{:.2f} of the prior set", kappa.mean, kappa.half_width);
+}
+
+}  // namespace
+
+std::string StageName(int episode, const std::string& doing) {
+  return "episode " + std::to_string(episode) + ": " + doing;
+}
+
+std::string LossText(double discriminator, double generator) {
+  return fmt::format("L_D {:.2f}  L_G {:+.2f}", discriminator, generator);
+}
+
+std::string LossesCsv(const std::vector<std::array<double, 3>>& losses) {
+  std::string csv = "step,loss_discriminator,loss_generator\n";
+  for (const auto& [step, discriminator, generator] : losses) {
+    csv += FormatDouble(step) + "," + FormatDouble(discriminator) + "," + FormatDouble(generator) +
+           "\n";
+  }
+  return csv;
+}
+
+void LogStage(const StageStatistics& row, const std::vector<StageStatistics>& rows) {
+  const std::string name = row.stage < 0 ? "prior set" : "episode " + std::to_string(row.stage);
+  spdlog::info("{}: {} objects, {} rejected, graspability {:.5f} +-{:.5f}{}", name, row.samples,
+               row.rejected(), row.graspability.mean, row.graspability.half_width,
+               KappaText(row, rows));
+}
+
+void WarnIfCollapsed(const StageStatistics& row, const std::vector<StageStatistics>& rows) {
+  const StageStatistics* first = FindStage(rows, 0);
+  if (first != nullptr && row.coverage < 0.5 * first->coverage) {
+    spdlog::warn(
+        "the generator is collapsing: coverage {:.0f} % of the prior set, {:.0f} % in "
+        "episode 0",
+        100 * row.coverage, 100 * first->coverage);
+  }
+  if (row.duplicates > 0.2) {
+    spdlog::warn("the generator is collapsing: {:.0f} % of its samples are near-duplicates",
+                 100 * row.duplicates);
+  }
+}
+
+void WriteElites(const std::filesystem::path& path, const ScoredStage& scored,
+                 const std::vector<std::int64_t>& elites, int episode, const RunConfig& config) {
+  ShapeSet set;
+  set.kind = "elites";
+  set.seed = config.seed;
+  set.truncation = config.model.truncation;
+  set.provenance = "antigrasp train, episode " + std::to_string(episode) + ", " +
+                   (config.cem.select == "random" ? "random samples" : "least graspable samples");
+  for (const std::int64_t i : elites) {
+    set.names.push_back("sample-" + std::to_string(i));
+    set.grids.push_back(GridOf(scored.values[i], config.model));
+  }
+  WriteShapeSet(path, set);
+}
+
+void ExportLeastGraspable(const ScoredStage& scored, const RunConfig& config,
+                          const RunFolder& folder) {
+  if (config.stl_count == 0) return;
+  std::vector<std::int64_t> worst = LeastGraspable(scored.graspabilities, config.stl_count);
+  const auto value = [&](std::int64_t i) {
+    return scored.graspabilities[static_cast<std::size_t>(i)];
+  };
+  std::stable_sort(worst.begin(), worst.end(),
+                   [&](std::int64_t a, std::int64_t b) { return value(a) < value(b); });
+  MakeFolder(folder.Stl());
+  const std::uint64_t fresh = RngStream(config.seed, "rescore").NextU64();
+  std::string csv = "file,object,graspability,graspability_fresh_draws,ci_low,ci_high,size_mm\n";
+  for (std::size_t rank = 0; rank < worst.size(); ++rank) {
+    const std::int64_t i = worst[rank];
+    const TriangleMesh& mesh = scored.objects[static_cast<std::size_t>(i)].mesh;
+    const std::string name = fmt::format("adversarial_{:02d}.stl", rank + 1);
+    WriteMesh(folder.Stl() / name, FitToPlate(mesh, config.stl_size_mm));
+    const Graspability again =
+        EvaluateGraspability(mesh, config.metric, fresh, static_cast<std::uint64_t>(i));
+    csv += name + "," + std::to_string(i) + "," + FormatDouble(value(i)) + "," +
+           FormatDouble(again.value) + "," + FormatDouble(again.ci_low) + "," +
+           FormatDouble(again.ci_high) + "," + FormatDouble(config.stl_size_mm) + "\n";
+  }
+  WriteFileAtomic(folder.Stl() / "scores.csv", csv);
+}
+
+}  // namespace antigrasp

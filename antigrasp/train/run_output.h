@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "antigrasp/train/run_config.h"
+#include "antigrasp/train/run_folder.h"
+#include "antigrasp/train/stage.h"
+
+namespace antigrasp {
+
+// What a run writes and says beside its checkpoints.
+
+std::string StageName(int episode, const std::string& doing);  // "episode 1: scoring"
+std::string LossText(double discriminator, double generator);
+std::string LossesCsv(const std::vector<std::array<double, 3>>& losses);
+
+// One line: counts, graspability and kappa against the rows before it.
+void LogStage(const StageStatistics& row, const std::vector<StageStatistics>& rows);
+
+// Mode collapse (VI-D) shows in coverage and near-duplicates long before the mean pairwise distance
+// moves: warns below half of episode 0's coverage and above 20 % near-duplicates.
+void WarnIfCollapsed(const StageStatistics& row, const std::vector<StageStatistics>& rows);
+
+void WriteElites(const std::filesystem::path& path, const ScoredStage& scored,
+                 const std::vector<std::int64_t>& elites, int episode, const RunConfig& config);
+
+// config.stl_count least graspable objects as STL in mm under RUN/stl, and scores.csv beside them:
+// picked by their first score, scored again with fresh draws, because the lowest of many noisy
+// scores is too low.
+void ExportLeastGraspable(const ScoredStage& scored, const RunConfig& config,
+                          const RunFolder& folder);
+
+}  // namespace antigrasp

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "antigrasp/quality/graspability.h"
+#include "antigrasp/sdf/remesh.h"
+
+namespace antigrasp {
+
+// One row of a run: what was sampled at a stage and how hard it is to grasp. Stage -1 is the prior
+// set, 0 the GAN trained on it, k the GAN retrained k times.
+struct StageStatistics {
+  int stage = -1;
+  int samples = 0;
+  std::array<int, kNumRemeshStatuses> by_status{};  // indexed by RemeshStatus
+  int scored = 0;
+  int without_grasps = 0;  // graspability 0 because no grasp was found
+  MeanInterval graspability;
+  double elite_threshold = 0.0;  // the highest graspability kept; NaN at the last stage
+  double coverage = 0.0;         // similarity.h, against the prior set; NaN for the prior itself
+  double nna = 0.0;
+  double duplicates = 0.0;
+  double diversity = 0.0;
+
+  int rejected() const { return samples - by_status[0]; }
+};
+
+// A mean divided by a reference mean, with the 95 % interval of the ratio (delta method for two
+// independent means). This is kappa with c = 1 / reference (paper VI).
+MeanInterval Ratio(const MeanInterval& value, const MeanInterval& reference);
+
+// The rows as CSV with a header line, and back (for resume). FromCsv: InputError naming `origin`.
+std::string StatisticsToCsv(const std::vector<StageStatistics>& rows);
+std::vector<StageStatistics> StatisticsFromCsv(const std::string& csv, const std::string& origin);
+
+// The table a person reads after a run: episode, samples, rejected by reason, graspability with its
+// interval, kappa relative to the prior set, to episode 0 and to the control of the same episode
+// ("-" without one), coverage, duplicates. `control` may be empty.
+std::string StatisticsTable(const std::vector<StageStatistics>& rows,
+                            const std::vector<StageStatistics>& control);
+
+}  // namespace antigrasp
