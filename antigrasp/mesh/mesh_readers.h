@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "antigrasp/mesh/polygon_soup.h"
+
+// One reader per format, from the bytes of the whole file. They believe no count in the file: what
+// is stored grows with what has been read, or is checked against the size first. InputError names
+// `path`, and the line in text formats. Indices are checked later, by ToTriangleMesh().
+//
+// These are our own because CGAL's (5.5) drops NaN vertices of STL silently, skips corners after a
+// tab in OBJ and refuses its line elements, and allocates what a PLY list length claims.
+namespace antigrasp {
+
+PolygonSoup ReadStl(std::string_view bytes, const std::string& path);
+PolygonSoup ReadObj(std::string_view bytes, const std::string& path);
+PolygonSoup ReadPly(std::string_view bytes, const std::string& path);
+PolygonSoup ReadOff(std::string_view bytes, const std::string& path);
+
+}  // namespace antigrasp

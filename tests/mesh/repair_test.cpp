@@ -1,0 +1,184 @@
+#include "antigrasp/mesh/repair.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "antigrasp/core/rng.h"
+#include "tests/support/shapes.h"
+
+namespace antigrasp {
+namespace {
+
+bool Did(const RepairResult& result, const std::string& action) {
+  return std::find(result.actions.begin(), result.actions.end(), action) != result.actions.end();
+}
+
+// Every face with three vertices of its own, as STL stores it.
+TriangleMesh Exploded(const TriangleMesh& mesh) {
+  TriangleMesh out;
+  for (const auto& face : mesh.faces) {
+    const auto n = static_cast<std::int32_t>(out.vertices.size());
+    for (const auto corner : face) out.vertices.push_back(mesh.vertices[corner]);
+    out.faces.push_back({n, n + 1, n + 2});
+  }
+  return out;
+}
+
+TEST(Repair, LeavesASolidAsItIs) {
+  const TriangleMesh torus = shapes::Torus(1.0, 0.3, 20, 10);
+  const RepairResult result = Repair(torus);
+  EXPECT_TRUE(result.accepted());
+  EXPECT_TRUE(result.actions.empty());
+  EXPECT_EQ(result.mesh.vertices, torus.vertices);
+  EXPECT_EQ(result.mesh.faces, torus.faces);
+  EXPECT_TRUE(result.report.IsSolid());
+}
+
+TEST(Repair, TurnsAnInsideOutMeshOutward) {
+  const TriangleMesh sphere = shapes::Sphere(1.0, 2);
+  const RepairResult result = Repair(shapes::Inverted(sphere));
+  EXPECT_TRUE(result.accepted()) << result.refusal;
+  EXPECT_EQ(result.actions, std::vector<std::string>{"turned inside out"});
+  EXPECT_DOUBLE_EQ(Volume(result.mesh), Volume(sphere));
+}
+
+TEST(Repair, MakesARandomWindingAgree) {
+  const TriangleMesh torus = shapes::Torus(1.0, 0.3, 20, 10);
+  RngStream rng(5, "winding");
+  TriangleMesh mixed = torus;
+  int turned = 0;
+  for (auto& face : mixed.faces) {
+    if (rng.Below(2) == 0) continue;
+    std::swap(face[0], face[1]);
+    ++turned;
+  }
+  const RepairResult result = Repair(mixed);
+  EXPECT_TRUE(result.accepted()) << result.refusal;
+  EXPECT_TRUE(Did(result, "turned " + std::to_string(turned) + " wrongly wound faces"));
+  EXPECT_DOUBLE_EQ(result.report.volume, Volume(torus));
+}
+
+TEST(Repair, JoinsATriangleSoup) {
+  const RepairResult result = Repair(Exploded(shapes::Cube()));
+  EXPECT_TRUE(result.accepted()) << result.refusal;
+  EXPECT_TRUE(Did(result, "merged 28 duplicate vertices"));
+  EXPECT_EQ(result.mesh.vertices.size(), 8u);
+}
+
+TEST(Repair, DropsDuplicateDegenerateAndUnusedParts) {
+  TriangleMesh mesh = shapes::Cube();
+  mesh.faces.push_back({mesh.faces[0][1], mesh.faces[0][2], mesh.faces[0][0]});
+  mesh.faces.push_back({mesh.faces[5][1], mesh.faces[5][0], mesh.faces[5][2]});
+  mesh.faces.push_back({3, 3, 4});
+  mesh.vertices.push_back({8, 8, 8});
+  const RepairResult result = Repair(mesh);
+  EXPECT_TRUE(result.accepted()) << result.refusal;
+  EXPECT_TRUE(Did(result, "removed 2 duplicate faces"));
+  EXPECT_TRUE(Did(result, "removed 1 degenerate face"));
+  EXPECT_TRUE(Did(result, "removed 1 unused vertex"));
+  EXPECT_EQ(result.mesh.faces, shapes::Cube().faces);
+}
+
+TEST(Repair, ClosesSeamsThatRoundingOpened) {
+  TriangleMesh mesh = Exploded(shapes::Sphere(1.0, 2));
+  RngStream rng(9, "seams");
+  for (auto& v : mesh.vertices) {
+    v += 1e-9 * Eigen::Vector3d(rng.Uniform(), rng.Uniform(), rng.Uniform());
+  }
+  const RepairResult result = Repair(mesh);
+  EXPECT_TRUE(result.accepted()) << result.refusal;
+  EXPECT_EQ(result.mesh.vertices.size(), shapes::Sphere(1.0, 2).vertices.size());
+  EXPECT_EQ(result.actions.size(), 1u);
+  EXPECT_TRUE(result.actions[0].ends_with("nearly equal vertices")) << result.actions[0];
+}
+
+TEST(Repair, DoesNotMergeNearVerticesWhereThatWouldNotCloseTheMesh) {
+  TriangleMesh mesh = Exploded(shapes::Cube());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    mesh.vertices[i].x() += 1e-3 * static_cast<double>(i);
+  }
+  const RepairResult result = Repair(mesh);
+  EXPECT_EQ(result.refusal, "open: 36 boundary edges");
+  EXPECT_EQ(result.mesh.vertices.size(), 36u);
+}
+
+// A cube with a corner set into the middle of an edge, between one face and a zero-area sliver.
+TEST(Repair, FlipsAZeroAreaSliverAwayAndStaysClosed) {
+  TriangleMesh mesh = shapes::Cube();
+  const auto [a, b, c] = mesh.faces[0];
+  const auto middle = static_cast<std::int32_t>(mesh.vertices.size());
+  mesh.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
+  mesh.faces[0] = {a, middle, c};
+  mesh.faces.push_back({middle, b, c});
+  mesh.faces.push_back({a, b, middle});
+  ASSERT_TRUE(Inspect(mesh, false).closed);
+  ASSERT_EQ(Inspect(mesh, false).degenerate_faces, 1);
+  const RepairResult result = Repair(mesh);
+  EXPECT_TRUE(result.accepted()) << result.refusal;
+  EXPECT_TRUE(Did(result, "flipped the long edge of 1 zero-area face"));
+  EXPECT_DOUBLE_EQ(result.report.volume, 1.0);
+  EXPECT_DOUBLE_EQ(result.report.area, 6.0);
+}
+
+TEST(Repair, NeverInventsSurface) {
+  TriangleMesh open = shapes::Sphere(1.0, 1);
+  open.faces.pop_back();
+  EXPECT_EQ(Repair(open).refusal, "open: 3 boundary edges");
+  EXPECT_EQ(Repair(shapes::FlatSquare()).refusal, "open: 4 boundary edges");
+
+  TriangleMesh spike = shapes::Sphere(1.0, 2);
+  spike.vertices[0] *= -3.0;
+  EXPECT_EQ(Repair(spike).refusal, "self-intersecting");
+
+  const TriangleMesh apart =
+      shapes::Joined(shapes::Cube(), Transformed(shapes::Cube(), 1.0, {4, 0, 0}));
+  EXPECT_EQ(Repair(apart).refusal, "disjoint pieces: 2");
+}
+
+TEST(Repair, RefusesWhatIsNoMeshAtAll) {
+  EXPECT_EQ(Repair(TriangleMesh{}).refusal, "empty: no faces");
+  TriangleMesh mesh = shapes::Cube();
+  mesh.faces[0] = {0, 1, 77};
+  EXPECT_TRUE(Repair(mesh).refusal.starts_with("not finite"));
+  mesh = shapes::Cube();
+  mesh.vertices[0].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(Repair(mesh).refusal.starts_with("not finite"));
+  const TriangleMesh flat{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}, {0, 2, 1}}}};
+  EXPECT_FALSE(Repair(flat).accepted());
+  const TriangleMesh lines{{{0, 0, 0}, {1, 0, 0}}, {{{0, 1, 1}}}};
+  EXPECT_EQ(Repair(lines).refusal, "empty: no faces");
+}
+
+TEST(Repair, IsIdempotentOnRandomDamage) {
+  for (int trial = 0; trial < 60; ++trial) {
+    RngStream rng(21, "damage", trial);
+    TriangleMesh mesh = Exploded(shapes::Sphere(1.0, 1));
+    for (int i = 0; i < 10; ++i) {
+      auto& face = mesh.faces[rng.Below(mesh.faces.size())];
+      switch (rng.Below(4)) {
+        case 0:
+          std::swap(face[0], face[1]);
+          break;
+        case 1:
+          mesh.faces.push_back(face);
+          break;
+        case 2:
+          mesh.faces.push_back({face[0], face[0], face[1]});
+          break;
+        default:
+          mesh.vertices.push_back({rng.Normal(), rng.Normal(), rng.Normal()});
+          break;
+      }
+    }
+    const RepairResult once = Repair(mesh);
+    EXPECT_TRUE(once.accepted()) << once.refusal;
+    const RepairResult twice = Repair(once.mesh);
+    EXPECT_TRUE(twice.actions.empty());
+    EXPECT_EQ(twice.mesh.faces, once.mesh.faces);
+  }
+}
+
+}  // namespace
+}  // namespace antigrasp

@@ -1,0 +1,93 @@
+#include "antigrasp/mesh/triangle_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "tests/support/shapes.h"
+
+namespace antigrasp {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+TEST(TriangleMesh, SphereVolumeAndAreaConvergeToTheFormulas) {
+  double last_volume_error = 1e9, last_area_error = 1e9;
+  for (int subdivisions = 1; subdivisions <= 5; ++subdivisions) {
+    const TriangleMesh sphere = shapes::Sphere(2.0, subdivisions);
+    const double volume_error = 4.0 / 3.0 * kPi * 8.0 - Volume(sphere);
+    const double area_error = 4.0 * kPi * 4.0 - SurfaceArea(sphere);
+    // Inscribed, and second order: four times better per subdivision.
+    EXPECT_GT(volume_error, 0.0);
+    EXPECT_GT(area_error, 0.0);
+    EXPECT_LT(volume_error, last_volume_error / 3.0);
+    EXPECT_LT(area_error, last_area_error / 3.0);
+    last_volume_error = volume_error;
+    last_area_error = area_error;
+  }
+  EXPECT_LT(last_volume_error, 0.05);
+}
+
+TEST(TriangleMesh, PrismsHaveTheirExactVolumeAndArea) {
+  const TriangleMesh box = shapes::Box({1.0, 2.0, 3.0});
+  EXPECT_DOUBLE_EQ(Volume(box), 6.0);
+  EXPECT_DOUBLE_EQ(SurfaceArea(box), 22.0);
+  EXPECT_DOUBLE_EQ(Volume(shapes::Tetrahedron()), 1.0 / 6.0);
+  const double polygon_area = 0.5 * 12 * std::sin(2.0 * kPi / 12) * 0.25;
+  EXPECT_NEAR(Volume(shapes::Cylinder(0.5, 2.0, 12)), 2.0 * polygon_area, 1e-14);
+}
+
+TEST(TriangleMesh, TorusVolumeApproachesThatOfPappus) {
+  EXPECT_NEAR(Volume(shapes::Torus(1.0, 0.3, 200, 100)), 2.0 * kPi * kPi * 0.09, 0.002);
+}
+
+TEST(TriangleMesh, TurningTheWindingNegatesTheVolume) {
+  const TriangleMesh torus = shapes::Torus(1.0, 0.3, 20, 12);
+  EXPECT_DOUBLE_EQ(Volume(shapes::Inverted(torus)), -Volume(torus));
+  EXPECT_DOUBLE_EQ(SurfaceArea(shapes::Inverted(torus)), SurfaceArea(torus));
+}
+
+TEST(TriangleMesh, IntegralsFollowARigidMotion) {
+  const Eigen::Vector3d shift(10.0, -20.0, 3.0);
+  const TriangleMesh tetrahedron = shapes::Tetrahedron();
+  const TriangleMesh moved = Transformed(tetrahedron, 2.0, shift);
+  EXPECT_NEAR(Volume(moved), 8.0 / 6.0, 1e-12);
+  EXPECT_TRUE(CenterOfMass(moved).isApprox(Eigen::Vector3d::Constant(0.5) + shift, 1e-14));
+  const Eigen::Matrix3d rotation =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const TriangleMesh turned = shapes::Rotated(tetrahedron, rotation);
+  EXPECT_NEAR(Volume(turned), 1.0 / 6.0, 1e-15);
+  EXPECT_TRUE(CenterOfMass(turned).isApprox(rotation * Eigen::Vector3d::Constant(0.25), 1e-14));
+}
+
+TEST(TriangleMesh, VolumeKeepsItsDigitsFarFromTheOrigin) {
+  const TriangleMesh far = Transformed(shapes::Cube(), 1.0, Eigen::Vector3d::Constant(1048576.0));
+  EXPECT_DOUBLE_EQ(Volume(far), 1.0);
+  EXPECT_TRUE(CenterOfMass(far).isApprox(Eigen::Vector3d::Constant(1048576.0), 1e-15));
+}
+
+TEST(TriangleMesh, CenterOfMassWeighsSolidsByVolume) {
+  // Volumes 1 and 8, centres 0 and 9.
+  const TriangleMesh pair = shapes::Joined(
+      shapes::Cube(), Transformed(shapes::Cube(), 2.0, Eigen::Vector3d(9.0, 0.0, 0.0)));
+  EXPECT_NEAR(CenterOfMass(pair).x(), 8.0, 1e-13);
+}
+
+TEST(TriangleMesh, CenterOfMassOfASurfaceWithoutVolumeIsItsCentroid) {
+  const TriangleMesh square = Transformed(shapes::FlatSquare(), 1.0, {3.0, 4.0, 5.0});
+  EXPECT_TRUE(CenterOfMass(square).isApprox(Eigen::Vector3d(3.0, 4.0, 5.0), 1e-15));
+}
+
+TEST(TriangleMesh, BoundsAreTightAndZeroForNothing) {
+  const BoundingBox box = Bounds(Transformed(shapes::Box({1, 2, 3}), 1.0, {1.0, 1.0, 1.0}));
+  EXPECT_EQ(box.min, Eigen::Vector3d(0.5, 0.0, -0.5));
+  EXPECT_EQ(box.max, Eigen::Vector3d(1.5, 2.0, 2.5));
+  EXPECT_EQ(box.Center(), Eigen::Vector3d(1, 1, 1));
+  EXPECT_EQ(Bounds(TriangleMesh{}).Extent(), Eigen::Vector3d::Zero());
+  EXPECT_EQ(Volume(TriangleMesh{}), 0.0);
+  EXPECT_EQ(CenterOfMass(TriangleMesh{}), Eigen::Vector3d::Zero());
+}
+
+}  // namespace
+}  // namespace antigrasp
