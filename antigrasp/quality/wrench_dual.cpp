@@ -89,16 +89,17 @@ std::optional<WrenchDual> MakeWrenchDual(const std::array<Contact, 2>& contacts,
   dual.apex = map.At(map.inward[0] / contacts[0].normal_force,
                      map.inward[1] / contacts[1].normal_force, 1.0);
   const double step = std::numbers::pi / model.cone_edges;
-  for (std::size_t i = 0; i < 2; ++i) {
-    dual.edges[i].reserve(static_cast<std::size_t>(model.cone_edges));
-    for (int j = 0; j < model.cone_edges; ++j) {
-      // Polar of the friction pyramid: its edges are the outward normals of the pyramid's sides.
-      const double angle = (2 * j + 1) * step;
-      const Vector3d c = -model.friction * std::cos(step) * map.inward[i] +
-                         std::cos(angle) * frames[i][0] + std::sin(angle) * frames[i][1];
-      dual.edges[i].push_back(i == 0 ? map.At(c, Vector3d::Zero(), 0.0)
-                                     : map.At(Vector3d::Zero(), c, 0.0));
-    }
+  const double inset = model.friction * std::cos(step);
+  for (auto& edges : dual.edges) edges.reserve(static_cast<std::size_t>(model.cone_edges));
+  for (int j = 0; j < model.cone_edges; ++j) {
+    // Polar of the friction pyramid: its edges are the outward normals of the pyramid's sides.
+    const double angle = (2 * j + 1) * step;
+    const double along1 = std::cos(angle), along2 = std::sin(angle);
+    const auto side = [&](std::size_t i) -> Vector3d {
+      return along1 * frames[i][0] + along2 * frames[i][1] - inset * map.inward[i];
+    };
+    dual.edges[0].push_back(map.At(side(0), Vector3d::Zero(), 0.0));
+    dual.edges[1].push_back(map.At(Vector3d::Zero(), side(1), 0.0));
   }
   dual.a = bound[map.base] / std::abs(map.along[map.base]);
   dual.b = bound[1 - map.base];

@@ -1,0 +1,161 @@
+#include "antigrasp/quality/antipodal_sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "tests/quality/random_grasps.h"
+#include "tests/support/shapes.h"
+
+namespace antigrasp {
+namespace {
+
+using Eigen::Vector3d;
+constexpr double kOpening = 0.05;
+constexpr double kFriction = 0.5;
+
+struct Sampled {
+  std::vector<Grasp> grasps;
+  int attempts;
+};
+
+Sampled SampleGrasps(const TriangleMesh& mesh, int attempts) {
+  const RayScene scene(mesh);
+  const AntipodalSampler sampler(mesh, scene, kFriction, kOpening);
+  Sampled sampled{{}, attempts};
+  for (int i = 0; i < attempts; ++i) {
+    RngStream rng(1, "grasp", 0, static_cast<std::uint64_t>(i));
+    if (const auto grasp = sampler.Try(&rng)) sampled.grasps.push_back(*grasp);
+  }
+  return sampled;
+}
+
+void ExpectAntipodal(const Grasp& grasp) {
+  const auto& [first, second] = grasp.contacts;
+  EXPECT_NEAR(grasp.axis.norm(), 1.0, 1e-14);
+  EXPECT_LE(grasp.width, kOpening);
+  EXPECT_NEAR((second.point - first.point - grasp.width * grasp.axis).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((0.5 * (first.point + second.point) - grasp.center).norm(), 0.0, 1e-9);
+  EXPECT_FALSE(Slips(-first.normal, grasp.axis, kFriction));
+  EXPECT_FALSE(Slips(-second.normal, -grasp.axis, kFriction));
+  EXPECT_NEAR(first.normal_force, grasp.axis.dot(-first.normal), 1e-14);
+  EXPECT_NEAR(second.normal_force, grasp.axis.dot(second.normal), 1e-14);
+}
+
+TEST(SurfaceSampler, VisitsFacesInProportionToTheirArea) {
+  const TriangleMesh box = shapes::Box({1.0, 2.0, 4.0});
+  const SurfaceSampler sampler(box);
+  EXPECT_NEAR(sampler.area(), 28.0, 1e-12);
+  RngStream rng(1, "surface");
+  const int count = 40000;
+  Eigen::Vector3d share = Vector3d::Zero();  // by the direction of the normal
+  Eigen::Vector3d mean = Vector3d::Zero();
+  for (int i = 0; i < count; ++i) {
+    const auto [point, normal] = sampler.Draw(&rng);
+    share += normal.cwiseAbs() / count;
+    mean += point / count;
+    EXPECT_NEAR((point.cwiseAbs() - Vector3d(0.5, 1.0, 2.0)).maxCoeff(), 0.0, 1e-14);
+  }
+  EXPECT_NEAR(share.x(), 16.0 / 28.0, 0.01);
+  EXPECT_NEAR(share.y(), 8.0 / 28.0, 0.01);
+  EXPECT_NEAR(share.z(), 4.0 / 28.0, 0.01);
+  EXPECT_LT(mean.norm(), 0.04);
+}
+
+TEST(SurfaceSampler, NeverVisitsAFaceWithoutArea) {
+  TriangleMesh mesh = shapes::Tetrahedron();
+  mesh.faces.insert(mesh.faces.begin(), {0, 0, 1});
+  mesh.faces.push_back({2, 2, 2});
+  const SurfaceSampler sampler(mesh);
+  RngStream rng(2, "surface");
+  for (int i = 0; i < 1000; ++i) EXPECT_NEAR(sampler.Draw(&rng).normal.norm(), 1.0, 1e-14);
+}
+
+TEST(DrawInCone, IsUniformOverTheSolidAngle) {
+  RngStream rng(3, "cone");
+  const Vector3d axis = Vector3d(1.0, -2.0, 0.5).normalized();
+  const double half_angle = std::atan(0.5);
+  const double edge = std::cos(half_angle);
+  const int count = 40000;
+  double mean_height = 0.0;
+  Vector3d mean = Vector3d::Zero();
+  for (int i = 0; i < count; ++i) {
+    const Vector3d u = DrawInCone(axis, half_angle, &rng);
+    EXPECT_NEAR(u.norm(), 1.0, 1e-14);
+    EXPECT_GE(u.dot(axis), edge - 1e-14);
+    mean_height += u.dot(axis) / count;
+    mean += u / count;
+  }
+  EXPECT_NEAR(mean_height, 0.5 * (1.0 + edge), 3e-4);  // height is uniform in [cos, 1]
+  EXPECT_LT((mean - mean.dot(axis) * axis).norm(), 5e-3);
+}
+
+TEST(AntipodalSampler, EveryGraspOfASphereIsAntipodalAndOnTheSurface) {
+  const Sampled sampled = SampleGrasps(shapes::Sphere(0.02, 4), 1000);
+  EXPECT_GT(sampled.grasps.size(), 900u);  // a chord through a sphere meets both ends alike
+  for (const Grasp& grasp : sampled.grasps) {
+    ExpectAntipodal(grasp);
+    for (const Contact& c : grasp.contacts) {
+      EXPECT_NEAR(c.point.norm(), 0.02, 1e-4);
+      EXPECT_GT(c.normal.dot(c.point), 0.0);
+    }
+  }
+}
+
+TEST(AntipodalSampler, GraspsABoxOnlyAcrossSidesNarrowerThanTheOpening) {
+  const Sampled sampled = SampleGrasps(shapes::Box({0.04, 0.06, 0.08}), 2000);
+  EXPECT_GT(sampled.grasps.size(), 200u);
+  for (const Grasp& grasp : sampled.grasps) {
+    ExpectAntipodal(grasp);
+    EXPECT_GT(std::abs(grasp.contacts[0].normal.x()), 0.99);
+    EXPECT_GT(std::abs(grasp.axis.x()), 0.8);
+  }
+}
+
+TEST(AntipodalSampler, FindsNothingOnAnObjectWiderThanTheOpening) {
+  EXPECT_TRUE(SampleGrasps(shapes::Sphere(0.05, 3), 1000).grasps.empty());
+}
+
+TEST(AntipodalSampler, JawsCannotReachIntoANarrowSlot) {
+  // Two plates 4 mm apart: the inner sides face each other across the gap, outward normals towards
+  // it, and a jaw on its way there meets the other plate first.
+  const TriangleMesh plate = shapes::Box({0.01, 0.04, 0.04});
+  const Vector3d x = Vector3d::UnitX();
+  const Sampled sampled = SampleGrasps(
+      shapes::Joined(Transformed(plate, 1.0, -0.007 * x), Transformed(plate, 1.0, 0.007 * x)),
+      4000);
+  EXPECT_GT(sampled.grasps.size(), 100u);
+  for (const Grasp& grasp : sampled.grasps) {
+    ExpectAntipodal(grasp);
+    for (const Contact& contact : grasp.contacts) {
+      // Near the rim a tilted jaw slips past the other plate, further in it cannot.
+      const Vector3d at = contact.point.cwiseAbs();
+      const bool inner_side = std::abs(contact.normal.x()) > 0.9 &&
+                              std::abs(at.x() - 0.002) < 1e-6 && std::max(at.y(), at.z()) < 0.0175;
+      EXPECT_FALSE(inner_side);
+    }
+  }
+}
+
+TEST(AntipodalSampler, InvertedAndOpenMeshesGiveNoGraspsInsteadOfACrash) {
+  EXPECT_TRUE(SampleGrasps(shapes::Inverted(shapes::Sphere(0.02, 3)), 500).grasps.empty());
+  EXPECT_TRUE(
+      SampleGrasps(Transformed(shapes::FlatSquare(), 0.04, Vector3d::Zero()), 500).grasps.empty());
+}
+
+TEST(AntipodalSampler, UsesTheSameAmountOfRandomnessWhateverTheOutcome) {
+  const TriangleMesh box = shapes::Box({0.04, 0.06, 0.08});
+  const RayScene scene(box);
+  const AntipodalSampler sampler(box, scene, kFriction, kOpening);
+  for (std::uint64_t i = 0; i < 50; ++i) {
+    RngStream used(4, "grasp", i), plain(4, "grasp", i);
+    sampler.Try(&used);
+    for (int k = 0; k < 5; ++k) plain.Uniform();
+    EXPECT_EQ(used.Uniform(), plain.Uniform());
+  }
+}
+
+}  // namespace
+}  // namespace antigrasp

@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "antigrasp/quality/epsilon_closed_form.h"
+#include "antigrasp/quality/epsilon_general.h"
+#include "tests/quality/facet_oracle.h"
+#include "tests/quality/random_grasps.h"
+
+namespace antigrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+std::optional<WrenchDual> DualOf(const RandomGrasp& grasp) {
+  return MakeWrenchDual(
+      grasp.contacts, grasp.com, grasp.model,
+      {TangentFrame(-grasp.contacts[0].normal), TangentFrame(-grasp.contacts[1].normal)});
+}
+
+void ExpectFacetsAgree(const RandomGrasp& grasp, int* positive, const char* what) {
+  const double expected = EpsilonByFacets(GraspMatrix(grasp.contacts, grasp.com, grasp.model));
+  const double epsilon = Epsilon(grasp.contacts, grasp.com, grasp.model);
+  EXPECT_NEAR(epsilon, expected, 1e-11 + 1e-7 * expected) << what;
+  *positive += expected > 0.0 ? 1 : 0;
+}
+
+TEST(EpsilonMethods, ClosedFormEqualsTheGeneralMethodInsideThePyramids) {
+  int compared = 0;
+  for (std::uint64_t i = 0; i < 6000; ++i) {
+    RngStream rng(11, "methods", i);
+    const int edges = i % 3 == 0 ? 3 + static_cast<int>(rng.Below(14)) : 8;
+    const auto dual = DualOf(DrawRandomGrasp(1.0, edges, &rng));
+    ASSERT_TRUE(dual.has_value());
+    if (!InClosedFormDomain(*dual)) continue;
+    const auto general = MaxNorm2General(*dual);
+    ASSERT_TRUE(general.has_value()) << i;
+    EXPECT_NEAR(MaxNorm2ClosedForm(*dual), *general, 1e-9 * *general) << i;
+    ++compared;
+  }
+  EXPECT_GT(compared, 3000);
+}
+
+TEST(EpsilonMethods, TorsionOfSimilarSizeOnBothContactsUsesTheRidges) {
+  // Large fingers and short arms make the torsion rows cross C, which the usual constants do not.
+  int compared = 0;
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    RngStream rng(12, "ridges", i);
+    RandomGrasp grasp = DrawRandomGrasp(0.8, 8, &rng);
+    grasp.model.finger_radius = rng.Uniform(0.05, 1.0);
+    const auto dual = DualOf(grasp);
+    ASSERT_TRUE(dual.has_value());
+    if (!InClosedFormDomain(*dual)) continue;
+    const auto general = MaxNorm2General(*dual);
+    ASSERT_TRUE(general.has_value()) << i;
+    EXPECT_NEAR(MaxNorm2ClosedForm(*dual), *general, 1e-9 * *general) << i;
+    ++compared;
+  }
+  EXPECT_GT(compared, 800);
+}
+
+TEST(EpsilonMethods, EveryFacetOfTheHullAgreesInsideTheCone) {
+  int positive = 0;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    RngStream rng(13, "facets", i);
+    ExpectFacetsAgree(DrawRandomGrasp(1.0, i % 2 == 0 ? 3 : 4, &rng), &positive, "inside");
+  }
+  EXPECT_GT(positive, 100);
+}
+
+TEST(EpsilonMethods, EveryFacetOfTheHullAgreesOutsideTheConeAndOnTheWrongSide) {
+  int positive = 0;
+  for (std::uint64_t i = 0; i < 600; ++i) {
+    RngStream rng(14, "facets", i);
+    RandomGrasp grasp = DrawRandomGrasp(2.0, i % 2 == 0 ? 3 : 4, &rng);
+    if (i % 5 == 0) grasp.contacts[0].normal = DrawDirection(&rng);
+    if (i % 7 == 0) grasp.com = DrawPoint(1.0, &rng);
+    if (i % 3 == 0) grasp.model.finger_radius = rng.Uniform(0.05, 0.5);
+    ExpectFacetsAgree(grasp, &positive, "outside");
+  }
+  EXPECT_GT(positive, 30);
+}
+
+TEST(EpsilonMethods, EveryFacetOfTheHullAgreesOnAxisAlignedGrasps) {
+  int positive = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int offset = 0; offset < 3; ++offset) {
+      for (const int edges : {3, 4}) {
+        RandomGrasp grasp;
+        const Vector3d normal = Vector3d::Unit(axis);
+        const Vector3d side = 0.004 * offset * Vector3d::Unit((axis + 1) % 3);
+        grasp.contacts = {Contact{-0.02 * normal, -normal, 1.0},
+                          Contact{0.02 * normal + side, normal, 1.0}};
+        grasp.com = 0.01 * Vector3d::Unit((axis + 2) % 3);
+        grasp.model.cone_edges = edges;
+        ExpectFacetsAgree(grasp, &positive, "axis aligned");
+      }
+    }
+  }
+  EXPECT_GT(positive, 10);
+}
+
+}  // namespace
+}  // namespace antigrasp

@@ -1,0 +1,241 @@
+#include "antigrasp/quality/graspability.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "antigrasp/quality/epsilon.h"
+#include "tests/support/shapes.h"
+
+namespace antigrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+MetricOptions Noise(const std::string& preset) {
+  MetricOptions options;
+  ApplyNoisePreset(preset, &options);
+  return options;
+}
+
+void ExpectSame(const Graspability& a, const Graspability& b) {
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.attempts, b.attempts);
+  if (a.status != GraspabilityStatus::kNotEvaluable) {
+    EXPECT_EQ(a.value, b.value);
+    EXPECT_EQ(a.ci_low, b.ci_low);
+    EXPECT_EQ(a.ci_high, b.ci_high);
+    EXPECT_EQ(a.mean, b.mean);
+  }
+  ASSERT_EQ(a.grasps.size(), b.grasps.size());
+  for (std::size_t i = 0; i < a.grasps.size(); ++i) {
+    EXPECT_EQ(a.grasps[i].quality, b.grasps[i].quality);
+    EXPECT_EQ(a.grasps[i].grasp.center, b.grasps[i].grasp.center);
+  }
+}
+
+TEST(Graspability, SummarisesTheGraspsBehindIt) {
+  const Graspability g = EvaluateGraspability(shapes::Sphere(1.0, 3), {}, 1, 0);
+  EXPECT_EQ(g.status, GraspabilityStatus::kOk);
+  ASSERT_EQ(g.grasps.size(), 100u);
+  EXPECT_GE(g.attempts, 100);
+  std::vector<double> qualities;
+  double sum = 0.0, nonzero = 0.0;
+  for (const ScoredGrasp& scored : g.grasps) {
+    qualities.push_back(scored.quality);
+    sum += scored.quality;
+    nonzero += scored.quality > 0.0 ? 1.0 : 0.0;
+  }
+  EXPECT_EQ(g.value, DiscretePercentile(qualities, 75.0));
+  EXPECT_NEAR(g.mean, sum / 100.0, 1e-15);
+  EXPECT_DOUBLE_EQ(g.fraction_nonzero, nonzero / 100.0);
+  EXPECT_LE(g.ci_low, g.value);
+  EXPECT_GE(g.ci_high, g.value);
+  EXPECT_LT(g.ci_low, g.ci_high);
+  EXPECT_GT(g.seconds, 0.0);
+}
+
+TEST(Graspability, RescalesTheSmallestExtentToFourCentimetres) {
+  const Graspability g = EvaluateGraspability(shapes::Box({2.0, 5.0, 3.0}), {}, 1, 0);
+  EXPECT_DOUBLE_EQ(g.scale, 0.02);
+  for (const ScoredGrasp& scored : g.grasps) {
+    EXPECT_NEAR(std::abs(scored.grasp.contacts[0].point.x()), 0.02, 1e-12);
+  }
+}
+
+TEST(Graspability, DoesNotDependOnTheUnitOrPositionOfTheMesh) {
+  const TriangleMesh mesh = shapes::Torus(2.0, 1.0, 24, 12);
+  const Graspability a = EvaluateGraspability(mesh, {}, 1, 0);
+  const Graspability b = EvaluateGraspability(Transformed(mesh, 4.0, {64.0, -8.0, 2.0}), {}, 1, 0);
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_NEAR(a.value, b.value, 0.02 * a.value);  // rounding may turn a contact on an edge
+}
+
+TEST(Graspability, WithoutNoiseGraspsOfACubeScoreTheirEpsilon) {
+  const Graspability g = EvaluateGraspability(shapes::Cube(), Noise("none"), 1, 0);
+  ASSERT_EQ(g.status, GraspabilityStatus::kOk);
+  for (const ScoredGrasp& scored : g.grasps) {
+    EXPECT_NEAR(scored.quality, Epsilon(scored.grasp.contacts, Vector3d::Zero(), {}), 1e-9);
+    EXPECT_LE(scored.quality, std::numbers::pi * 0.005 * 0.005 * 0.5 * 1000.0);
+  }
+  EXPECT_GT(g.fraction_nonzero, 0.8);
+}
+
+TEST(Graspability, NoiseLowersItAndMoreNoiseLowersItMore) {
+  for (const TriangleMesh& mesh :
+       {shapes::Sphere(1.0, 3), shapes::Cube(), shapes::Cylinder(0.5, 2.0, 60)}) {
+    const double none = EvaluateGraspability(mesh, Noise("none"), 1, 0).value;
+    const double usual = EvaluateGraspability(mesh, Noise("default"), 1, 0).value;
+    const double dexnet = EvaluateGraspability(mesh, Noise("dexnet"), 1, 0).value;
+    EXPECT_LT(usual, none);
+    EXPECT_LT(dexnet, 0.5 * usual);
+    EXPECT_GT(dexnet, 0.0);
+  }
+}
+
+TEST(Graspability, ALongRodIsHarderThanASphere) {
+  // Grasps far from the centre of mass leave long torque arms: epsilon falls.
+  const double sphere = EvaluateGraspability(shapes::Sphere(1.0, 3), {}, 1, 0).value;
+  const double cube = EvaluateGraspability(shapes::Cube(), {}, 1, 0).value;
+  const double rod = EvaluateGraspability(shapes::Box({1.0, 1.0, 10.0}), {}, 1, 0).value;
+  EXPECT_GT(sphere, 0.0);
+  EXPECT_GT(rod, 0.0);
+  EXPECT_LT(rod, 0.5 * sphere);
+  EXPECT_LT(rod, 0.5 * cube);
+}
+
+TEST(Graspability, ATetrahedronIsHarderThanACube) {
+  // Its faces meet at 70.5 degrees: no two are within the friction cones of one line.
+  const Graspability g = EvaluateGraspability(shapes::Tetrahedron(), {}, 1, 0);
+  EXPECT_LT(g.value, 0.5 * EvaluateGraspability(shapes::Cube(), {}, 1, 0).value);
+}
+
+TEST(Graspability, AQuarterTurnAboutXChangesOnlyTheSample) {
+  // The tangent frames follow the x axis, so each grasp keeps its epsilon; the random directions do
+  // not turn with the mesh, so the sample is another one.
+  MetricOptions options = Noise("none");
+  options.num_grasps = 2000;
+  options.max_attempts = 20000;
+  const TriangleMesh box = shapes::Box({1.0, 1.2, 1.1});
+  Eigen::Matrix3d turn;
+  turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  const Graspability a = EvaluateGraspability(box, options, 1, 0);
+  const Graspability b = EvaluateGraspability(shapes::Rotated(box, turn), options, 1, 0);
+  EXPECT_NEAR(a.value, b.value, 0.1 * a.value);
+  EXPECT_NEAR(a.mean, b.mean, 0.1 * a.mean);
+}
+
+TEST(Graspability, AnObjectWiderThanTheGripperHasNoGrasps) {
+  MetricOptions options;
+  options.object_min_extent = 0.0;
+  options.max_attempts = 500;
+  const Graspability g = EvaluateGraspability(shapes::Sphere(0.06, 3), options, 1, 0);
+  EXPECT_EQ(g.status, GraspabilityStatus::kNoGrasps);
+  EXPECT_EQ(g.value, 0.0);
+  EXPECT_EQ(g.mean, 0.0);
+  EXPECT_EQ(g.attempts, 500);
+  EXPECT_EQ(g.scale, 1.0);
+  EXPECT_TRUE(g.grasps.empty());
+}
+
+TEST(Graspability, TooFewAttemptsAreReportedAndScored) {
+  MetricOptions options;
+  options.max_attempts = 20;
+  const Graspability g = EvaluateGraspability(shapes::Cube(), options, 1, 0);
+  EXPECT_EQ(g.status, GraspabilityStatus::kFewGrasps);
+  EXPECT_EQ(g.attempts, 20);
+  EXPECT_GT(g.grasps.size(), 0u);
+  EXPECT_GT(g.value, 0.0);
+}
+
+TEST(Graspability, MeshesThatCannotBeEvaluatedGiveNaNAndAStatus) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<TriangleMesh> bad(1);  // empty
+  bad.push_back(shapes::FlatSquare());
+  bad.push_back(shapes::Cube());
+  bad.back().vertices[3].y() = nan;
+  bad.push_back(shapes::Cube());
+  bad.back().vertices[3].y() = std::numeric_limits<double>::infinity();
+  bad.push_back(shapes::Cube());
+  bad.back().faces[2][1] = 8;
+  bad.push_back(shapes::Cube());
+  bad.back().faces[2][1] = -1;
+  bad.push_back(shapes::Cube());
+  bad.back().faces.clear();
+  bad.push_back(Transformed(shapes::Cube(), 1e-320, Vector3d::Zero()));
+  bad.push_back(Transformed(shapes::Cube(), 0.0, Vector3d::Zero()));
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    const Graspability g = EvaluateGraspability(bad[i], {}, 1, 0);
+    EXPECT_EQ(g.status, GraspabilityStatus::kNotEvaluable) << i;
+    EXPECT_TRUE(std::isnan(g.value)) << i;
+  }
+}
+
+TEST(Graspability, BrokenSurfacesAreEvaluatedWithoutACrash) {
+  TriangleMesh open = shapes::Sphere(1.0, 3);
+  open.faces.resize(open.faces.size() / 2);
+  TriangleMesh doubled = shapes::Joined(shapes::Cube(), shapes::Cube());
+  TriangleMesh degenerate = shapes::Cube();
+  degenerate.faces.push_back({0, 0, 0});
+  degenerate.faces.push_back({1, 2, 2});
+  MetricOptions options;
+  options.max_attempts = 1000;
+  for (const TriangleMesh& mesh : {open, doubled, degenerate}) {
+    const Graspability g = EvaluateGraspability(mesh, options, 1, 0);
+    EXPECT_NE(g.status, GraspabilityStatus::kNotEvaluable);
+    EXPECT_TRUE(std::isfinite(g.value));
+  }
+  const Graspability inverted =
+      EvaluateGraspability(shapes::Inverted(shapes::Cube()), options, 1, 0);
+  EXPECT_EQ(inverted.status, GraspabilityStatus::kNoGrasps);
+}
+
+TEST(Graspability, IsTheSameForTheSameSeedAndObjectAndDiffersOtherwise) {
+  const TriangleMesh mesh = shapes::Torus(2.0, 1.0, 24, 12);
+  const Graspability g = EvaluateGraspability(mesh, {}, 1, 5);
+  ExpectSame(EvaluateGraspability(mesh, {}, 1, 5), g);
+  EXPECT_NE(EvaluateGraspability(mesh, {}, 2, 5).value, g.value);
+  EXPECT_NE(EvaluateGraspability(mesh, {}, 1, 6).value, g.value);
+}
+
+TEST(EvaluateAll, GivesTheSameBitsForAnyNumberOfThreadsAndNumbersObjects) {
+  const std::vector<TriangleMesh> meshes{shapes::Sphere(1.0, 2),
+                                         shapes::Cube(),
+                                         TriangleMesh{},
+                                         shapes::Cylinder(0.5, 2.0, 30),
+                                         shapes::Torus(2.0, 1.0, 20, 10),
+                                         shapes::Tetrahedron()};
+  const auto one = EvaluateAll(meshes, {}, 3, 10, 1);
+  const auto two = EvaluateAll(meshes, {}, 3, 10, 2);
+  ASSERT_EQ(one.size(), meshes.size());
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    ExpectSame(one[i], two[i]);
+    ExpectSame(one[i], EvaluateGraspability(meshes[i], {}, 3, 10 + i));
+  }
+}
+
+TEST(EvaluateAll, ReportsEveryObjectOnceAndNothingForNone) {
+  std::vector<std::int64_t> seen;
+  MetricOptions options;
+  options.num_grasps = 5;
+  EvaluateAll({shapes::Cube(), shapes::Cube(), shapes::Cube()}, options, 1, 0, 2,
+              [&seen](std::int64_t done, std::int64_t total) {
+                EXPECT_EQ(total, 3);
+                seen.push_back(done);
+              });
+  EXPECT_EQ(seen, (std::vector<std::int64_t>{1, 2, 3}));
+  EXPECT_TRUE(EvaluateAll({}, options, 1).empty());
+}
+
+TEST(GraspabilityStatus, EveryStatusHasItsOwnName) {
+  EXPECT_EQ(Name(GraspabilityStatus::kOk), "ok");
+  EXPECT_EQ(Name(GraspabilityStatus::kFewGrasps), "few_grasps");
+  EXPECT_EQ(Name(GraspabilityStatus::kNoGrasps), "no_grasps");
+  EXPECT_EQ(Name(GraspabilityStatus::kNotEvaluable), "not_evaluable");
+}
+
+}  // namespace
+}  // namespace antigrasp

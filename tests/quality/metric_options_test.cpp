@@ -1,0 +1,97 @@
+#include "antigrasp/quality/metric_options.h"
+
+#include <gtest/gtest.h>
+
+#include "antigrasp/core/error.h"
+
+namespace antigrasp {
+namespace {
+
+// Every field different from its default.
+MetricOptions Unusual() {
+  return {0.37, 6, 0.004, 900.0, 0.03, 0.06, 11, 12, 13, 60.0, 0.001, 0.02, 0.003, 0.04, 0.05, 14};
+}
+
+void ExpectEqual(const MetricOptions& a, const MetricOptions& b) {
+  EXPECT_EQ(a.friction, b.friction);
+  EXPECT_EQ(a.cone_edges, b.cone_edges);
+  EXPECT_EQ(a.finger_radius, b.finger_radius);
+  EXPECT_EQ(a.torque_scale, b.torque_scale);
+  EXPECT_EQ(a.object_min_extent, b.object_min_extent);
+  EXPECT_EQ(a.jaw_opening, b.jaw_opening);
+  EXPECT_EQ(a.num_grasps, b.num_grasps);
+  EXPECT_EQ(a.num_draws, b.num_draws);
+  EXPECT_EQ(a.max_attempts, b.max_attempts);
+  EXPECT_EQ(a.percentile, b.percentile);
+  EXPECT_EQ(a.object_translation_std, b.object_translation_std);
+  EXPECT_EQ(a.object_rotation_std, b.object_rotation_std);
+  EXPECT_EQ(a.grasp_translation_std, b.grasp_translation_std);
+  EXPECT_EQ(a.grasp_rotation_std, b.grasp_rotation_std);
+  EXPECT_EQ(a.friction_std, b.friction_std);
+  EXPECT_EQ(a.bootstrap, b.bootstrap);
+}
+
+TEST(MetricOptions, EveryFieldSurvivesTheConfigurationFile) {
+  MetricOptions written = Unusual(), read;
+  OptionTable out, in;
+  Bind(&out, &written);
+  Bind(&in, &read);
+  EXPECT_EQ(out.options().size(), 16u);
+  in.ApplyText(out.Dump(), "dump");
+  ExpectEqual(read, Unusual());
+}
+
+TEST(MetricOptions, EveryKeyRefusesAValueJustOutsideItsRange) {
+  MetricOptions options;
+  OptionTable table;
+  Bind(&table, &options);
+  for (const Option& option : table.options()) {
+    EXPECT_EQ(option.key.rfind("metric.", 0), 0u) << option.key;
+    EXPECT_FALSE(option.help.empty()) << option.key;
+    EXPECT_THROW(table.ApplyOverride(option.key + "=-1"), InputError) << option.key;
+    EXPECT_THROW(table.ApplyOverride(option.key + "=nan"), InputError) << option.key;
+    EXPECT_THROW(table.ApplyOverride(option.key + "=2000000000"), InputError) << option.key;
+  }
+  EXPECT_THROW(table.ApplyOverride("metric.cone_edges=2"), InputError);
+  EXPECT_THROW(table.ApplyOverride("metric.num_draws=0"), InputError);
+  EXPECT_THROW(table.ApplyOverride("metric.percentile=100.5"), InputError);
+  EXPECT_THROW(table.ApplyOverride("metric.no_such_key=1"), InputError);
+  ExpectEqual(options, MetricOptions{});
+}
+
+TEST(MetricOptions, DefaultPresetIsTheDefault) {
+  MetricOptions options;
+  ApplyNoisePreset("dexnet", &options);
+  ApplyNoisePreset("default", &options);
+  ExpectEqual(options, MetricOptions{});
+}
+
+TEST(MetricOptions, PresetsTouchOnlyTheNoise) {
+  MetricOptions options = Unusual();
+  ApplyNoisePreset("dexnet", &options);
+  MetricOptions expected = Unusual();
+  expected.object_translation_std = 0.01;
+  expected.object_rotation_std = 0.01;
+  expected.grasp_translation_std = 0.005;
+  expected.grasp_rotation_std = 0.001;
+  expected.friction_std = 0.1;
+  ExpectEqual(options, expected);
+  ApplyNoisePreset("none", &options);
+  expected.object_translation_std = expected.object_rotation_std = 0.0;
+  expected.grasp_translation_std = expected.grasp_rotation_std = expected.friction_std = 0.0;
+  ExpectEqual(options, expected);
+}
+
+TEST(MetricOptions, AnUnknownPresetIsRefusedByName) {
+  MetricOptions options;
+  try {
+    ApplyNoisePreset("loud", &options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("loud"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("dexnet"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace antigrasp
