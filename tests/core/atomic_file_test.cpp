@@ -20,7 +20,7 @@ int FilesIn(const fs::path& folder) {
 }
 
 TEST(AtomicFile, LeavesTheOldFileWhenNotCommitted) {
-  const TempFolder folder;
+  const shapes::TempFolder folder;
   const fs::path target = folder.path() / "a.txt";
   WriteFileAtomic(target, "old");
   {
@@ -32,7 +32,7 @@ TEST(AtomicFile, LeavesTheOldFileWhenNotCommitted) {
 }
 
 TEST(AtomicFile, ReplacesTheOldFileWhenCommitted) {
-  const TempFolder folder;
+  const shapes::TempFolder folder;
   const fs::path target = folder.path() / "a.txt";
   WriteFileAtomic(target, "old");
   WriteFileAtomic(target, std::string("new\0bytes", 9));
@@ -41,7 +41,7 @@ TEST(AtomicFile, ReplacesTheOldFileWhenCommitted) {
 }
 
 TEST(AtomicFile, AFullDiskKeepsTheOldFileAndSaysSo) {
-  const TempFolder folder;
+  const shapes::TempFolder folder;
   const fs::path target = folder.path() / "a.txt";
   WriteFileAtomic(target, "old");
   rlimit before{};
@@ -57,19 +57,19 @@ TEST(AtomicFile, AFullDiskKeepsTheOldFileAndSaysSo) {
 }
 
 TEST(AtomicFile, RefusesAMissingFolderAndAFolderAsTarget) {
-  const TempFolder folder;
+  const shapes::TempFolder folder;
   EXPECT_THROW(WriteFileAtomic(folder.path() / "no" / "a.txt", "x"), InputError);
   EXPECT_THROW(WriteFileAtomic(folder.path(), "x"), InputError);
 }
 
 TEST(ReadFile, SaysWhatIsWrongWithThePath) {
-  const TempFolder folder;
+  const shapes::TempFolder folder;
   EXPECT_THROW(ReadFile(folder.path() / "missing"), InputError);
   EXPECT_THROW(ReadFile(folder.path()), InputError);
 }
 
 TEST(MakeFolder, RefusesAFileInTheWay) {
-  const TempFolder folder;
+  const shapes::TempFolder folder;
   WriteFileAtomic(folder.path() / "file", "x");
   EXPECT_THROW(MakeFolder(folder.path() / "file"), InputError);
   EXPECT_THROW(MakeFolder(folder.path() / "file" / "sub"), InputError);

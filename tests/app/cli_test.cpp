@@ -1,0 +1,195 @@
+// The binary as a user meets it: every command, exit codes, one-line errors, nothing half-written.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/datasets/shape_set.h"
+#include "antigrasp/mesh/inspect.h"
+#include "antigrasp/mesh/mesh_file.h"
+#include "tests/support/shapes.h"
+#include "tests/support/temp_folder.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+using shapes::TempFolder;
+
+struct Outcome {
+  int code = -1;
+  std::string text;  // standard output and error
+};
+
+Outcome Shell(const std::string& command) {
+  Outcome outcome;
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  std::array<char, 4096> buffer;
+  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) {
+    outcome.text.append(buffer.data(), n);
+  }
+  const int status = pclose(pipe);
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return outcome;
+}
+
+Outcome Antigrasp(const std::string& arguments) {
+  return Shell(std::string(ANTIGRASP_BINARY) + " " + arguments);
+}
+
+const std::string kSmoke = std::string(ANTIGRASP_CONFIGS) + "/smoke.toml";
+
+int FilesIn(const fs::path& folder) {
+  return static_cast<int>(std::distance(fs::directory_iterator(folder), {}));
+}
+
+// Exit code 2, one line that begins with the program's name and holds `part`.
+void ExpectRefused(const std::string& arguments, const std::string& part) {
+  const Outcome outcome = Antigrasp(arguments);
+  EXPECT_EQ(outcome.code, 2) << arguments << "\n" << outcome.text;
+  EXPECT_NE(outcome.text.find(part), std::string::npos) << arguments << "\n" << outcome.text;
+  EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+  EXPECT_TRUE(outcome.text.starts_with("antigrasp: ")) << outcome.text;
+}
+
+TEST(Cli, HelpNamesEveryCommandAndEveryCommandHasHelp) {
+  const Outcome help = Antigrasp("help");
+  EXPECT_EQ(help.code, 0);
+  for (const char* command :
+       {"dataset", "train", "sample", "remesh", "evaluate", "export", "info"}) {
+    EXPECT_NE(help.text.find(command), std::string::npos) << command;
+    const Outcome own = Antigrasp(std::string("help ") + command);
+    EXPECT_EQ(own.code, 0) << command;
+    EXPECT_NE(own.text.find("Usage"), std::string::npos) << own.text;
+  }
+  ExpectRefused("help fly", "no command fly");
+  ExpectRefused("fly", "");
+  ExpectRefused("", "");
+}
+
+TEST(Cli, RefusesBadInputInOneLineAndWritesNothing) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  folder.Write("bad.toml", "[gan]\nbtach = 3\n");
+  folder.Write("range.toml", "[gan]\n\nbatch = 0\n");
+  folder.Write("broken.toml", "[gan\n");
+  folder.Write("not.h5", "no hdf5 at all");
+  const int before = FilesIn(folder.path());
+  ExpectRefused("train " + dir + "bad.toml --out " + dir + "run", "bad.toml:2");
+  ExpectRefused("train " + dir + "range.toml --out " + dir + "run", "range.toml:3");
+  ExpectRefused("train " + dir + "broken.toml --out " + dir + "run", "broken.toml:1");
+  ExpectRefused("train " + dir + "missing.toml --out " + dir + "run", "no such file");
+  ExpectRefused("train --resume " + dir + "run", "config.toml");
+  ExpectRefused("train " + kSmoke + " --out " + dir + "run --set cem.keep=99", "cem.keep = 99");
+  ExpectRefused("train " + kSmoke + " --out " + dir + "run --device toaster", "toaster");
+  ExpectRefused("train " + kSmoke, "--out");
+  ExpectRefused("sample " + dir + "not.h5 --out " + dir + "s.h5", "not a checkpoint");
+  ExpectRefused("sample " + dir + "none.pt --out " + dir + "s.h5", "no such file");
+  ExpectRefused("remesh " + dir + "not.h5 --out " + dir + "m", "not.h5");
+  ExpectRefused("evaluate " + dir + "not.h5", "not.h5");
+  ExpectRefused("evaluate " + dir + "missing.stl", "missing.stl");
+  ExpectRefused("evaluate " + dir + "none --friction -1", "metric.friction");
+  ExpectRefused("export " + dir + "not.h5 --out " + dir + "e", "not.h5");
+  ExpectRefused("info " + dir + "not.h5", "not.h5");
+  ExpectRefused("info " + dir, "not the folder of a run");
+  ExpectRefused("dataset make spheres --out " + dir + "x.h5", "spheres");
+  ExpectRefused("dataset make cylinders --out " + dir + "no/x.h5", "folder");
+  ExpectRefused("dataset make cylinders --count 2 --out " + dir, "a file name, not a folder");
+  ExpectRefused("dataset import " + dir + " --out " + dir + "x.h5", "");
+  EXPECT_EQ(FilesIn(folder.path()), before);
+}
+
+TEST(Cli, ScoresAreEqualForAnyNumberOfThreadsAndDifferForAnotherSeed) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  ASSERT_EQ(Antigrasp("dataset make prisms --count 6 --seed 3 --out " + dir + "p.h5").code, 0);
+  const std::string common = "evaluate " + dir + "p.h5 --num-grasps 30 --grasps " + dir;
+  ASSERT_EQ(Antigrasp(common + "1.csv --threads 1").code, 0);
+  ASSERT_EQ(Antigrasp(common + "2.csv --threads 2").code, 0);
+  ASSERT_EQ(Antigrasp(common + "3.csv --threads 2 --seed 9").code, 0);
+  EXPECT_EQ(ReadFile(dir + "1.csv"), ReadFile(dir + "2.csv"));
+  EXPECT_NE(ReadFile(dir + "1.csv"), ReadFile(dir + "3.csv"));
+}
+
+TEST(Cli, EvaluateWritesARowPerObjectAndNamesTheBadOnes) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  fs::create_directory(folder / "meshes");
+  WriteMesh(folder / "meshes/ball.stl", shapes::Sphere(1.0, 2));
+  WriteMesh(folder / "meshes/inside_out.obj", shapes::Inverted(shapes::Sphere(1.0, 2)));
+  WriteMesh(folder / "meshes/open.ply", shapes::FlatSquare());
+  folder.Write("meshes/noise.off", "rubbish");
+  const Outcome outcome = Antigrasp("evaluate " + dir + "meshes --out " + dir + "s.csv");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  const std::string csv = ReadFile(folder / "s.csv");
+  EXPECT_TRUE(
+      csv.starts_with("object,status,num_grasps,graspability,ci_low,ci_high,mean,"
+                      "fraction_nonzero,seconds\n"));
+  EXPECT_NE(csv.find("ball.stl,ok,100,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("inside_out.obj,ok,100,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("noise.off,not readable,0,,"), std::string::npos) << csv;
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
+  EXPECT_NE(ReadFile(folder / "s.csv.metric.toml").find("friction = 0.5"), std::string::npos);
+}
+
+TEST(Cli, ExportsSolidsInMillimetresAndLeavesTheRestOut) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteMesh(folder / "ball.ply", shapes::Sphere(0.3, 2));
+  WriteMesh(folder / "open.ply", shapes::FlatSquare());
+  const Outcome outcome =
+      Antigrasp("export " + dir + "ball.ply " + dir + "open.ply --size-mm 80 --out " + dir + "out");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_EQ(FilesIn(folder / "out"), 1);
+  const TriangleMesh mesh = ReadMesh(folder / "out/ball.stl");
+  EXPECT_NEAR(Bounds(mesh).Extent().maxCoeff(), 80.0, 1e-4);
+  EXPECT_NEAR(Bounds(mesh).min.z(), 0.0, 1e-4);
+  EXPECT_EQ(WhyNotSolid(Inspect(mesh)), "");
+  ExpectRefused("export " + dir + "open.ply --out " + dir + "none", "");
+  EXPECT_FALSE(fs::exists(folder / "none"));
+}
+
+TEST(Cli, ARunCanBeKilledResumedSampledAndExported) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  const std::string start = " train " + kSmoke + " --threads 2 --out " + dir;
+  ASSERT_EQ(Antigrasp(start + "whole").code, 0);
+  // SIGINT, then SIGKILL, then to the end.
+  const std::string binary = ANTIGRASP_BINARY;
+  const Outcome stopped = Shell("timeout -s INT 1.5 " + binary + start + "parts");
+  EXPECT_TRUE(stopped.code == 130 || stopped.code == 124) << stopped.code << stopped.text;
+  if (fs::exists(folder / "parts/config.toml")) {
+    Shell("timeout -s KILL 2 " + binary + " train --resume " + dir + "parts");
+    ASSERT_EQ(Antigrasp("train --resume " + dir + "parts").code, 0);
+    for (const char* name : {"checkpoint.pt", "episode_0/scores.csv", "episode_2/scores.csv",
+                             "episode_2/elites.h5", "control/checkpoint.pt"}) {
+      EXPECT_TRUE(ReadFile(folder / "whole" / name) == ReadFile(folder / "parts" / name)) << name;
+    }
+  }
+  ExpectRefused(start + "whole", "a run is already there");
+  const Outcome again = Antigrasp(start + "whole --or-resume");
+  EXPECT_EQ(again.code, 0);
+  EXPECT_NE(again.text.find("control 2"), std::string::npos) << again.text;
+  ExpectRefused(start + "whole --or-resume --seed 2", "other settings");
+
+  ASSERT_EQ(Antigrasp("sample " + dir + "whole --count 5 --seed 7 --out " + dir + "5.h5").code, 0);
+  ASSERT_EQ(Antigrasp("sample " + dir + "whole --count 9 --seed 7 --out " + dir + "9.h5").code, 0);
+  EXPECT_EQ(ReadShapeSet(folder / "5.h5").grids[4].values,
+            ReadShapeSet(folder / "9.h5").grids[4].values);
+  EXPECT_EQ(Antigrasp("remesh " + dir + "5.h5 --out " + dir + "meshes").code, 0);
+  EXPECT_TRUE(fs::exists(folder / "meshes/remesh.csv"));
+  for (const char* file : {"whole", "5.h5", "whole/episode_1/checkpoint.pt"}) {
+    const Outcome info = Antigrasp("info " + dir + file);
+    EXPECT_EQ(info.code, 0) << info.text;
+    EXPECT_NE(info.text.find("antigrasp"), std::string::npos) << info.text;
+  }
+}
+
+}  // namespace
+}  // namespace antigrasp

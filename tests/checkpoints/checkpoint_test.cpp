@@ -1,0 +1,118 @@
+#include "antigrasp/checkpoints/checkpoint.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <torch/torch.h>
+
+#include <csignal>
+
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
+#include "tests/support/temp_folder.h"
+
+namespace antigrasp {
+namespace {
+
+using shapes::TempFolder;
+
+Checkpoint Sample() {
+  Checkpoint checkpoint;
+  checkpoint.config = "[run]\nseed = 5\n";
+  checkpoint.statistics = "stage\n-1\n";
+  checkpoint.shapes = torch::arange(64, torch::kFloat).reshape({2, 1, 4, 2, 4}).to(torch::kHalf);
+  checkpoint.losses = torch::rand({3, 3}, torch::kDouble);
+  checkpoint.finished = true;
+  return checkpoint;
+}
+
+void SaveTensor(torch::serialize::OutputArchive* archive) {
+  archive->write("weight", torch::ones({2, 3}), true);
+}
+
+std::string MessageOf(const std::filesystem::path& path) {
+  try {
+    ReadCheckpoint(path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Checkpoint, ReadsBackWhatWasWritten) {
+  const TempFolder folder;
+  const Checkpoint written = Sample();
+  WriteCheckpoint(folder / "a.pt", written, SaveTensor);
+  const Checkpoint read = ReadCheckpoint(folder / "a.pt");
+  EXPECT_EQ(read.config, written.config);
+  EXPECT_EQ(read.statistics, written.statistics);
+  EXPECT_EQ(read.finished, written.finished);
+  EXPECT_TRUE(torch::equal(read.shapes, written.shapes));
+  EXPECT_EQ(read.shapes.scalar_type(), torch::kHalf);
+  EXPECT_TRUE(torch::equal(read.losses, written.losses));
+  torch::Tensor weight;
+  ReadNetworks(folder / "a.pt", [&](auto* archive) { archive->read("weight", weight, true); });
+  EXPECT_TRUE(torch::equal(weight, torch::ones({2, 3})));
+}
+
+TEST(Checkpoint, EqualStatesGiveEqualBytesUnderAnyName) {
+  const TempFolder folder;
+  const Checkpoint checkpoint = Sample();
+  WriteCheckpoint(folder / "a.pt", checkpoint, SaveTensor);
+  WriteCheckpoint(folder / "another.pt", checkpoint, SaveTensor);
+  EXPECT_EQ(ReadFile(folder / "a.pt"), ReadFile(folder / "another.pt"));
+}
+
+TEST(Checkpoint, NamesWhatIsWrongWithAFile) {
+  const TempFolder folder;
+  EXPECT_NE(MessageOf(folder / "missing.pt").find("no such file"), std::string::npos);
+  EXPECT_NE(MessageOf(folder.path()).find("is a folder"), std::string::npos);
+  WriteFileAtomic(folder / "text.pt", "this is no archive");
+  EXPECT_NE(MessageOf(folder / "text.pt").find("not a checkpoint"), std::string::npos);
+  EXPECT_FALSE(IsCheckpoint(folder / "text.pt"));
+}
+
+TEST(Checkpoint, RefusesEveryTruncation) {
+  const TempFolder folder;
+  WriteCheckpoint(folder / "a.pt", Sample(), SaveTensor);
+  const std::string bytes = ReadFile(folder / "a.pt");
+  for (std::size_t length = 0; length < bytes.size(); length += bytes.size() / 50 + 1) {
+    WriteFileAtomic(folder / "cut.pt", bytes.substr(0, length));
+    EXPECT_NE(MessageOf(folder / "cut.pt").find("expected an antigrasp checkpoint of version 1"),
+              std::string::npos)
+        << length;
+  }
+}
+
+TEST(Checkpoint, RefusesAForeignArchiveAndAnotherVersion) {
+  const TempFolder folder;
+  torch::serialize::OutputArchive foreign;
+  foreign.write("weight", torch::ones({1}));
+  foreign.save_to((folder / "foreign.pt").string());
+  EXPECT_NE(MessageOf(folder / "foreign.pt").find("no entry 'format'"), std::string::npos);
+
+  torch::serialize::OutputArchive newer;
+  newer.write("format", c10::IValue(std::string("antigrasp.checkpoint")));
+  newer.write("version", c10::IValue(std::int64_t{99}));
+  newer.save_to((folder / "newer.pt").string());
+  EXPECT_NE(MessageOf(folder / "newer.pt").find("checkpoint version 99"), std::string::npos);
+}
+
+TEST(Checkpoint, AFullDiskKeepsTheLastGoodOne) {
+  const TempFolder folder;
+  WriteCheckpoint(folder / "a.pt", Sample(), SaveTensor);
+  const std::string before = ReadFile(folder / "a.pt");
+  Checkpoint large = Sample();
+  large.shapes = torch::zeros({4, 1, 32, 32, 32}, torch::kHalf);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  rlimit tight = limit;
+  tight.rlim_cur = 10000;
+  setrlimit(RLIMIT_FSIZE, &tight);
+  EXPECT_THROW(WriteCheckpoint(folder / "a.pt", large, SaveTensor), RuntimeFailure);
+  setrlimit(RLIMIT_FSIZE, &limit);
+  EXPECT_EQ(ReadFile(folder / "a.pt"), before);
+}
+
+}  // namespace
+}  // namespace antigrasp

@@ -1,0 +1,159 @@
+#include "antigrasp/train/cem_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "antigrasp/checkpoints/checkpoint.h"
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/mesh/inspect.h"
+#include "antigrasp/mesh/mesh_file.h"
+#include "tests/support/temp_folder.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+using shapes::TempFolder;
+
+// Small enough for a few seconds; what is learnt does not matter here.
+RunConfig Tiny() {
+  RunConfig config;
+  config.threads = 2;
+  config.prior.count = 24;
+  config.model.width = 4;
+  config.model.latent = 8;
+  config.gan.batch = 8;
+  config.gan.learning_rate_g = config.gan.learning_rate_d = 2e-3;
+  config.cem.episodes = 2;
+  config.cem.prior_iterations = 30;
+  config.cem.iterations = 6;
+  config.cem.samples = 12;
+  config.cem.keep = 4;
+  config.cem.prior_fraction = 0.5;
+  config.cem.prior_scored = 8;
+  config.cem.checkpoint_every = 4;
+  config.metric.num_grasps = 10;
+  config.metric.num_draws = 4;
+  config.metric.max_attempts = 200;
+  config.metric.bootstrap = 20;
+  config.stl_count = 2;
+  return config;
+}
+
+// Stops after a number of progress reports, as a signal at that moment would.
+class StoppingObserver : public RunObserver {
+ public:
+  explicit StoppingObserver(int reports = -1) : left_(reports) {}
+  ProgressFn Phase(const std::string&) override {
+    return [this](std::int64_t, std::int64_t) {
+      if (left_ >= 0 && left_-- == 0) {
+        left_ = 0;
+        throw Interrupted();
+      }
+    };
+  }
+  void Detail(const std::string&) override {}
+  bool StopRequested() const override { return left_ == 0; }
+
+ private:
+  int left_;
+};
+
+std::map<std::string, std::string> FilesIn(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) {
+      files[fs::relative(entry.path(), folder).string()] = ReadFile(entry.path());
+    }
+  }
+  return files;
+}
+
+void ExpectSameFiles(const fs::path& a, const fs::path& b) {
+  const auto in_a = FilesIn(a);
+  const auto in_b = FilesIn(b);
+  for (const auto& [name, bytes] : in_a) {
+    ASSERT_TRUE(in_b.contains(name)) << name;
+    EXPECT_TRUE(in_b.at(name) == bytes) << name << " differs";
+  }
+  EXPECT_EQ(in_a.size(), in_b.size());
+}
+
+TEST(CemRun, WritesEveryStageAndPrintableSolids) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  const RunResult result = StartRun(Tiny(), folder / "run", &observer);
+  ASSERT_EQ(result.stages.size(), 4U);  // prior, 0, 1, 2
+  EXPECT_EQ(result.stages[0].stage, -1);
+  EXPECT_EQ(result.stages[0].rejected(), 0);
+  EXPECT_GT(result.stages[0].graspability.mean, 0.0);
+  for (int e = 0; e < 3; ++e) {
+    const RunFolder run{folder / "run"};
+    EXPECT_TRUE(IsCheckpoint(run.EpisodeCheckpoint(e)));
+    EXPECT_TRUE(fs::exists(run.Episode(e) / "scores.csv"));
+    EXPECT_TRUE(IsShapeSet(run.Episode(e) / "elites.h5"));
+  }
+  for (const auto& entry : fs::directory_iterator(folder / "run/stl")) {
+    if (entry.path().extension() != ".stl") continue;
+    const TriangleMesh mesh = ReadMesh(entry.path());
+    EXPECT_EQ(WhyNotSolid(Inspect(mesh)), "") << entry.path();
+    EXPECT_NEAR(Bounds(mesh).Extent().maxCoeff(), 60.0, 1e-4);
+  }
+}
+
+TEST(CemRun, GivesEqualBytesTwiceAndAfterAnyInterruption) {
+  const TempFolder folder;
+  StoppingObserver never;
+  StartRun(Tiny(), folder / "a", &never);
+  StartRun(Tiny(), folder / "b", &never);
+  ExpectSameFiles(folder / "a", folder / "b");
+  // In the prior's scoring, early and late in training, sampling and scoring of several episodes.
+  for (const int stop : {3, 34, 39, 61, 68, 75, 88, 95}) {
+    const fs::path run = folder / ("stopped-" + std::to_string(stop));
+    StoppingObserver stopping(stop + 24);  // making the prior set reports 24 times
+    EXPECT_THROW(StartRun(Tiny(), run, &stopping), Interrupted) << stop;
+    ResumeRun(run, &never);
+    ExpectSameFiles(folder / "a", run);
+  }
+}
+
+TEST(CemRun, SelectionKeepsLowerScoresThanTheControl) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  RunConfig config = Tiny();
+  config.cem.control = true;
+  const RunResult result = StartRun(config, folder / "run", &observer);
+  ASSERT_EQ(result.control.size(), result.stages.size());
+  // Both forks begin with the same networks: the same samples, the same scores.
+  EXPECT_EQ(result.control[1].graspability.mean, result.stages[1].graspability.mean);
+  EXPECT_LE(result.stages[1].elite_threshold, result.control[1].elite_threshold);
+}
+
+TEST(CemRun, ReportsAFinishedRunWithoutDoingItAgain) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  const RunResult first = StartRun(Tiny(), folder / "run", &observer);
+  StoppingObserver strict(0);  // any progress at all would throw
+  const RunResult again = ResumeRun(folder / "run", &strict);
+  EXPECT_EQ(StatisticsToCsv(again.stages), StatisticsToCsv(first.stages));
+}
+
+TEST(CemRun, RefusesAFolderThatHoldsARunAndADeviceThatIsNotThere) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  fs::create_directory(folder / "run");
+  WriteFileAtomic(folder / "run/config.toml", "");
+  EXPECT_THROW(StartRun(Tiny(), folder / "run", &observer), InputError);
+  RunConfig config = Tiny();
+  config.device = "toaster";
+  EXPECT_THROW(StartRun(config, folder / "other", &observer), InputError);
+  EXPECT_FALSE(fs::exists(folder / "other"));
+  EXPECT_THROW(ResumeRun(folder / "nothing", &observer), InputError);
+}
+
+}  // namespace
+}  // namespace antigrasp

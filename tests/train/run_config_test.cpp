@@ -1,0 +1,49 @@
+#include "antigrasp/train/run_config.h"
+
+#include <gtest/gtest.h>
+
+#include "antigrasp/core/error.h"
+
+namespace antigrasp {
+namespace {
+
+TEST(RunConfig, ReadsItsOwnDump) {
+  RunConfig config;
+  config.seed = 42;
+  config.cem.keep = 7;
+  config.prior.kind = "bottles";
+  config.metric.friction = 1.0 / 3;
+  const std::string toml = ToToml(config);
+  EXPECT_EQ(ToToml(FromToml(toml, "x")), toml);
+}
+
+TEST(RunConfig, HoldsThePapersNumbersByDefault) {
+  const RunConfig config;
+  EXPECT_EQ(config.cem.samples, 2500);
+  EXPECT_EQ(config.cem.keep, 500);
+  EXPECT_EQ(config.cem.iterations, 16000);
+  EXPECT_EQ(config.model.latent, 200);
+  EXPECT_EQ(config.metric.percentile, 75.0);
+  EXPECT_EQ(config.metric.friction, 0.5);
+}
+
+TEST(RunConfig, TheShippedFilesAreValid) {
+  for (const char* name : {"paper", "demo", "smoke"}) {
+    RunConfig config;
+    OptionTable table;
+    Bind(&table, &config);
+    const std::string path = std::string(ANTIGRASP_CONFIGS) + "/" + name + ".toml";
+    table.ApplyFile(path);
+    Validate(config, path);
+  }
+}
+
+TEST(RunConfig, RefusesToKeepMoreThanItSamples) {
+  RunConfig config;
+  config.cem.samples = 10;
+  config.cem.keep = 11;
+  EXPECT_THROW(Validate(config, "x"), InputError);
+}
+
+}  // namespace
+}  // namespace antigrasp
