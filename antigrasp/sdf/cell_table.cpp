@@ -1,7 +1,8 @@
 #include "antigrasp/sdf/cell_table.h"
 
 #include <algorithm>
-#include <numeric>
+#include <limits>
+#include <string>
 
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/rng.h"

@@ -79,27 +79,47 @@ double TriangleTree::SquaredDistance(const Triangle& t, const Eigen::Vector3d& p
   return height * height;
 }
 
-double TriangleTree::SquaredDistance(const Node& node, const Eigen::Vector3d& point) {
+// Of the squared distance to anything in the node: the better of the box and the slab.
+double TriangleTree::LowerBound(const Node& node, const Eigen::Vector3d& point) {
+  const double along = node.axis.dot(point);
+  const double slab = std::max({node.axis_min - along, along - node.axis_max, 0.0});
   const Eigen::Array3d below = (node.min - point).array(), above = (point - node.max).array();
-  return below.max(above).max(0.0).matrix().squaredNorm();
+  return std::max(slab * slab, below.max(above).max(0.0).matrix().squaredNorm());
+}
+
+TriangleTree::Node TriangleTree::Bound(const std::vector<std::int32_t>& order, std::int32_t first,
+                                       std::int32_t count, const std::vector<Triangle>& faces) {
+  Node node;
+  node.first = first;
+  node.count = count;
+  node.min.setConstant(kInfinity);
+  node.max = -node.min;
+  node.axis_min = kInfinity;
+  node.axis_max = -kInfinity;
+  node.axis.setZero();
+  for (std::int32_t i = first; i < first + count; ++i) node.axis += faces[order[i]].normal;
+  node.axis.normalize();  // stays zero when it is zero: a slab that never prunes
+  for (std::int32_t i = first; i < first + count; ++i) {
+    for (const Eigen::Vector3d& corner : faces[order[i]].corner) {
+      node.min = node.min.cwiseMin(corner);
+      node.max = node.max.cwiseMax(corner);
+      node.axis_min = std::min(node.axis_min, node.axis.dot(corner));
+      node.axis_max = std::max(node.axis_max, node.axis.dot(corner));
+    }
+  }
+  return node;
 }
 
 void TriangleTree::Split(std::int32_t node, std::int32_t first, std::int32_t count,
                          std::vector<std::int32_t>* order, const std::vector<Triangle>& faces) {
-  Eigen::Vector3d min = Eigen::Vector3d::Constant(kInfinity), max = -min;
-  for (std::int32_t i = first; i < first + count; ++i) {
-    for (const Eigen::Vector3d& corner : faces[(*order)[i]].corner) {
-      min = min.cwiseMin(corner);
-      max = max.cwiseMax(corner);
-    }
-  }
+  nodes_[node] = Bound(*order, first, count, faces);
   if (count <= kLeafSize) {
-    nodes_[node] = {min, max, static_cast<std::int32_t>(triangles_.size()), count};
+    nodes_[node].first = static_cast<std::int32_t>(triangles_.size());
     for (std::int32_t i = first; i < first + count; ++i) triangles_.push_back(faces[(*order)[i]]);
     return;
   }
   int axis = 0;
-  (max - min).maxCoeff(&axis);
+  (nodes_[node].max - nodes_[node].min).maxCoeff(&axis);
   const auto key = [&](std::int32_t f) {
     const auto& c = faces[f].corner;
     return c[0][axis] + c[1][axis] + c[2][axis];
@@ -111,7 +131,8 @@ void TriangleTree::Split(std::int32_t node, std::int32_t first, std::int32_t cou
   const auto left = static_cast<std::int32_t>(nodes_.size());
   nodes_.emplace_back();
   nodes_.emplace_back();
-  nodes_[node] = {min, max, left, 0};
+  nodes_[node].first = left;
+  nodes_[node].count = 0;
   Split(left, first, half, order, faces);
   Split(left + 1, first + half, count - half, order, faces);
 }
@@ -119,28 +140,31 @@ void TriangleTree::Split(std::int32_t node, std::int32_t first, std::int32_t cou
 TriangleTree::Hit TriangleTree::Nearest(const Eigen::Vector3d& point, std::int32_t hint) const {
   Hit best{SquaredDistance(triangles_[hint], point), hint};
   struct Entry {
-    double squared_distance;
+    double lower_bound;
     std::int32_t node;
   };
   std::array<Entry, 64> stack;  // halving 2^31 faces needs fewer
   std::size_t size = 0;
-  stack[size++] = {SquaredDistance(nodes_[0], point), 0};
+  stack[size++] = {LowerBound(nodes_[0], point), 0};
   while (size > 0) {
     const Entry entry = stack[--size];
-    if (entry.squared_distance >= best.squared_distance) continue;
+    if (entry.lower_bound >= best.squared_distance) continue;
     const Node& node = nodes_[entry.node];
     if (node.count > 0) {
       for (std::int32_t t = node.first; t < node.first + node.count; ++t) {
-        const double squared = SquaredDistance(triangles_[t], point);
+        const Triangle& triangle = triangles_[t];
+        const double height = triangle.normal.dot(point - triangle.corner[0]);
+        if (height * height >= best.squared_distance) continue;
+        const double squared = SquaredDistance(triangle, point);
         if (squared < best.squared_distance) best = {squared, t};
       }
       continue;
     }
-    Entry near{SquaredDistance(nodes_[node.first], point), node.first};
-    Entry far{SquaredDistance(nodes_[node.first + 1], point), node.first + 1};
-    if (far.squared_distance < near.squared_distance) std::swap(near, far);
-    if (far.squared_distance < best.squared_distance) stack[size++] = far;
-    if (near.squared_distance < best.squared_distance) stack[size++] = near;
+    Entry near{LowerBound(nodes_[node.first], point), node.first};
+    Entry far{LowerBound(nodes_[node.first + 1], point), node.first + 1};
+    if (far.lower_bound < near.lower_bound) std::swap(near, far);
+    if (far.lower_bound < best.squared_distance) stack[size++] = far;
+    if (near.lower_bound < best.squared_distance) stack[size++] = near;
   }
   return best;
 }

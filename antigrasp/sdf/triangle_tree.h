@@ -21,7 +21,7 @@ class TriangleTree {
   explicit TriangleTree(const TriangleMesh& mesh);
 
   // The nearest face. `hint` is searched first: the answer to a query close by makes it faster and
-  // never changes the distance.
+  // changes the distance by rounding at most.
   Hit Nearest(const Eigen::Vector3d& point, std::int32_t hint = 0) const;
 
  private:
@@ -36,6 +36,8 @@ class TriangleTree {
   };
   struct Node {
     Eigen::Vector3d min, max;
+    Eigen::Vector3d axis;  // mean normal: curved surfaces are thin along it where boxes are not
+    double axis_min, axis_max;
     std::int32_t first;  // leaf: its first triangle; else the left child, the right one follows it
     std::int32_t count;  // of triangles; 0 for an inner node
   };
@@ -43,7 +45,9 @@ class TriangleTree {
   static Triangle Prepare(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                           const Eigen::Vector3d& c);
   static double SquaredDistance(const Triangle& triangle, const Eigen::Vector3d& point);
-  static double SquaredDistance(const Node& node, const Eigen::Vector3d& point);
+  static double LowerBound(const Node& node, const Eigen::Vector3d& point);
+  static Node Bound(const std::vector<std::int32_t>& order, std::int32_t first, std::int32_t count,
+                    const std::vector<Triangle>& faces);
   void Split(std::int32_t node, std::int32_t first, std::int32_t count,
              std::vector<std::int32_t>* order, const std::vector<Triangle>& faces);
 
