@@ -2,18 +2,32 @@
 
 #include <torch/torch.h>
 
+#include <vector>
+
+#include "antigrasp/core/rng.h"
 #include "antigrasp/models/model_options.h"
+#include "antigrasp/models/spectral_norm.h"
 
 namespace antigrasp {
 
-// D : [-1, 1]^{32x32x32} -> R (paper V-A). sdf [N, 1, 32, 32, 32] -> score [N].
+// D : [-1, 1]^{32x32x32} -> R (paper V-A). sdf [N, 1, 32, 32, 32] -> score [N]. The generator
+// mirrored: four convolutions (kernel 4, stride 2) with LeakyReLU 0.2 and a linear head, every
+// weight spectrally normalised, no batch norm. A forward in training mode makes one power
+// iteration per layer.
 class DiscriminatorImpl : public torch::nn::Module {
  public:
-  explicit DiscriminatorImpl(const ModelOptions& options);
+  explicit DiscriminatorImpl(const ModelOptions& options);  // weights of a fixed stream
   torch::Tensor forward(const torch::Tensor& sdf);
+
+  // The same for grids folded as folding.h says, [N, 8, 17, 17, 17].
+  torch::Tensor ForwardFolded(const torch::Tensor& folded);
+
+  void Initialize(RngStream* rng);  // fresh weights
 
  private:
   ModelOptions options_;
+  std::vector<SpectralWeight> weights_;  // four convolutions, then the head
+  std::vector<torch::Tensor> biases_;
 };
 TORCH_MODULE(Discriminator);
 

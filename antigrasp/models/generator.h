@@ -2,21 +2,43 @@
 
 #include <torch/torch.h>
 
+#include <vector>
+
+#include "antigrasp/core/rng.h"
 #include "antigrasp/models/model_options.h"
 
 namespace antigrasp {
 
 // G : R^latent -> [-1, 1]^{32x32x32} (paper V-A). z [N, latent] -> sdf [N, 1, 32, 32, 32], network
-// values (positive inside; see ModelOptions::truncation).
+// values (positive inside; see ModelOptions::truncation). The DCGAN shape: a linear layer and four
+// transposed convolutions (kernel 4, stride 2), batch norm and ReLU between them.
 class GeneratorImpl : public torch::nn::Module {
  public:
-  explicit GeneratorImpl(const ModelOptions& options);
+  explicit GeneratorImpl(const ModelOptions& options);  // weights of a fixed stream
   torch::Tensor forward(const torch::Tensor& z);
+
+  // The same grid folded as folding.h says: what the discriminator takes, and twice as fast.
+  torch::Tensor ForwardFolded(const torch::Tensor& z);  // [N, 8, 17, 17, 17]
+
+  // Fresh weights. Transposed kernels start as trilinear interpolation of a random channel mix and
+  // the output far outside, so that the first shapes are smooth and closed.
+  void Initialize(RngStream* rng);
+
+  // From here on forward() in training mode averages the batch statistics of all its calls with
+  // equal weight: run some batches, then eval() samples with them.
+  void RestartStatistics();
+
   const ModelOptions& options() const { return options_; }
 
  private:
+  torch::Tensor Activate(std::size_t layer, const torch::Tensor& x);
+
   ModelOptions options_;
-  // ... layers
+  torch::nn::Linear project_{nullptr};
+  std::vector<torch::Tensor> up_weights_;      // [in, out, 4, 4, 4]
+  std::vector<torch::nn::BatchNorm3d> norms_;  // one per hidden layer, or instead of them
+  std::vector<torch::Tensor> biases_;          // one bias per channel
+  torch::Tensor last_weight_, last_bias_;
 };
 TORCH_MODULE(Generator);
 

@@ -6,9 +6,9 @@ namespace antigrasp {
 
 // Shape of the two networks. Everything a checkpoint needs to rebuild them.
 struct ModelOptions {
-  int width = 8;         // c: channels of the generator's last hidden layer at 16^3
-  int latent = 200;      // z in R^200 (paper V-A)
-  int resolution = 32;   // 32 only
+  int width = 8;              // c: channels of the generator's last hidden layer at 16^3
+  int latent = 200;           // z in R^200 (paper V-A)
+  int resolution = 32;        // 32 only
   bool spectral_norm = true;  // on the discriminator; off reproduces VI-D
   bool batch_norm = true;     // in the generator
   bool output_blur = true;    // [1 2 1]/4 before tanh

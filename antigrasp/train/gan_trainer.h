@@ -3,27 +3,13 @@
 #include <torch/torch.h>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 
-#include "antigrasp/core/options.h"
 #include "antigrasp/models/discriminator.h"
 #include "antigrasp/models/generator.h"
+#include "antigrasp/train/gan_options.h"
 
 namespace antigrasp {
-
-// How one GAN is trained.
-struct GanOptions {
-  int batch = 32;
-  int discriminator_steps = 1;
-  double learning_rate_g = 4e-4;
-  double learning_rate_d = 4e-4;
-  double beta1 = 0.0;
-  double beta2 = 0.9;
-  double lr_decay_fraction = 0.25;  // last share of an episode over which the rate falls to 0; 0 = never
-  double ema = 0.0;                 // decay of the averaged generator; 0 = 1 - 4 / iterations
-};
-void Bind(OptionTable* table, GanOptions* options);  // keys "gan.*"
 
 struct GanLosses {
   double discriminator = 0.0;  // L_D^data + L_D^gen (hinge, V-A)
@@ -32,6 +18,7 @@ struct GanLosses {
 
 // The networks, their average, their optimisers and the step count: all that training changes.
 // Random numbers of step t depend on (seed, episode, t) only, so there is no generator state.
+// Same seed and number of LibTorch threads, same bits.
 class GanTrainer {
  public:
   GanTrainer(const ModelOptions& model, const GanOptions& options, std::uint64_t seed,
@@ -50,10 +37,14 @@ class GanTrainer {
   std::int64_t iterations() const;  // of this episode
   int episode() const;
 
-  // Sample `first + i` of stream `seed` from the averaged generator, i in [0, count): network values
-  // [count, 1, 32, 32, 32] float32 on the CPU. Sample i does not depend on count or batch.
+  // Sample `first + i` of stream `seed` from the averaged generator, i in [0, count): network
+  // values [count, 1, 32, 32, 32] float32 on the CPU. Sample i does not depend on count or batch.
   torch::Tensor Sample(std::uint64_t seed, std::int64_t first, std::int64_t count);
 
+  // All tensors by name, flat: generator/..., discriminator/..., average/... (parameters and
+  // buffers), adam_generator/first/<i>, second/<i>, steps, adam_discriminator/..., and progress
+  // (int64: episode, iterations, step). Going on after Load equals going on without, bit for bit.
+  // Load throws InputError and changes nothing when a tensor is missing or does not fit.
   void Save(torch::serialize::OutputArchive* archive) const;
   void Load(torch::serialize::InputArchive* archive);
 

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <torch/types.h>
+
+namespace antigrasp {
+
+// Convolutions with kernel 4, stride 2, padding 1 and their transposes, in a form that oneDNN runs
+// fast on the CPU. A grid of s^3 nodes with a ring of zero nodes around it is cut into 2^3 blocks:
+// the eight nodes of a block become channels of one cell of h^3, h = s / 2 + 1. On the cells the
+// kernel is 2 and the stride 1, with the same weights and the same numbers. Strided gradients have
+// no AVX2 kernel in oneDNN, and one-channel grids are slow everywhere: a training step takes a
+// quarter of the time of the plain layers.
+
+// [N, C, s, s, s] <-> [N, 8 C, h, h, h], s even. Unfolding drops the ring. Each is the other's
+// gradient.
+torch::Tensor Fold(const torch::Tensor& grid);
+torch::Tensor Unfold(const torch::Tensor& folded);
+
+// conv3d of the unfolded grid, stride 2, padding 1: weight [out, in, 4, 4, 4], bias [out].
+// folded [N, 8 in, h, h, h] -> [N, out, h - 1, h - 1, h - 1].
+torch::Tensor DownConv(const torch::Tensor& folded, const torch::Tensor& weight,
+                       const torch::Tensor& bias);
+
+// conv_transpose3d, stride 2, folded: weight [in, out, 4, 4, 4], bias [out] or undefined.
+// x [N, in, s, s, s] -> [N, 8 out, s + 1, s + 1, s + 1]. Unfolded it is the layer with padding 1;
+// the ring holds what a padding of 0 adds.
+torch::Tensor UpConv(const torch::Tensor& x, const torch::Tensor& weight,
+                     const torch::Tensor& bias = {});
+
+// Smooths with [1 2 1]/4 along each axis (zero beyond the ring) if `blur`, then zeroes the ring.
+// [N, 8, 17, 17, 17].
+torch::Tensor BlurAndClearRing(const torch::Tensor& folded, bool blur);
+
+}  // namespace antigrasp

@@ -1,0 +1,97 @@
+#include "antigrasp/models/generator.h"
+
+#include <array>
+#include <cmath>
+
+#include "antigrasp/models/folding.h"
+#include "antigrasp/models/random_tensor.h"
+
+namespace antigrasp {
+namespace {
+
+constexpr int kUpLayers = 3;
+constexpr double kKernelNoise = 0.02;  // of the channel mix's deviation
+constexpr double kLastLayerSd = 0.3;   // at width 8
+constexpr double kOutsideBias = -0.5;  // tanh(-0.5): every node starts outside
+constexpr std::array<float, 4> kLinearTaps = {0.25F, 0.75F, 0.75F, 0.25F};
+
+// [in, out, 4, 4, 4]: each pair of channels linked by trilinear interpolation times a N(0, sd^2)
+// factor, plus 2 % noise to break the symmetry.
+torch::Tensor TrilinearKernel(at::IntArrayRef shape, double sd, RngStream* rng) {
+  const torch::Tensor mix = NormalTensor({shape[0], shape[1], 1, 1, 1}, sd, rng);
+  const torch::Tensor taps = torch::tensor(at::ArrayRef<float>(kLinearTaps.data(), 4));
+  return mix * taps.view({4, 1, 1}) * taps.view({4, 1}) * taps +
+         NormalTensor(shape, kKernelNoise * sd, rng);
+}
+
+}  // namespace
+
+GeneratorImpl::GeneratorImpl(const ModelOptions& options) : options_(options) {
+  const std::int64_t c = options_.width;
+  project_ = register_module(
+      "project",
+      torch::nn::Linear(torch::nn::LinearOptions(options_.latent, 8 * c * 8).bias(false)));
+  for (int i = 0; i < kUpLayers; ++i) {  // 8c -> 4c -> 2c -> c
+    up_weights_.push_back(register_parameter("up" + std::to_string(i + 1) + "_weight",
+                                             torch::zeros({8 * c >> i, 4 * c >> i, 4, 4, 4})));
+  }
+  for (int i = 0; i <= kUpLayers; ++i) {
+    if (options_.batch_norm) {
+      norms_.push_back(
+          register_module("norm" + std::to_string(i), torch::nn::BatchNorm3d(8 * c >> i)));
+    } else {
+      biases_.push_back(
+          register_parameter("bias" + std::to_string(i), torch::zeros({8 * c >> i, 1, 1, 1})));
+    }
+  }
+  last_weight_ = register_parameter("last_weight", torch::zeros({c, 1, 4, 4, 4}));
+  last_bias_ = register_parameter("last_bias", torch::zeros({1}));
+  RngStream rng(0, "generator");
+  Initialize(&rng);
+}
+
+void GeneratorImpl::Initialize(RngStream* rng) {
+  torch::NoGradGuard no_grad;
+  project_->weight.copy_(
+      NormalTensor(project_->weight.sizes(), 1.0 / std::sqrt(options_.latent), rng));
+  for (torch::Tensor& weight : up_weights_) {
+    const double sd = std::sqrt(2.0 / static_cast<double>(weight.size(0)));
+    weight.copy_(TrilinearKernel(weight.sizes(), sd, rng));
+  }
+  for (torch::nn::BatchNorm3d& norm : norms_) {
+    norm->reset_parameters();  // scale 1, shift 0, statistics restarted
+  }
+  for (torch::Tensor& bias : biases_) {
+    bias.zero_();
+  }
+  last_weight_.copy_(
+      TrilinearKernel(last_weight_.sizes(), kLastLayerSd * std::sqrt(8.0 / options_.width), rng));
+  last_bias_.fill_(kOutsideBias);
+}
+
+void GeneratorImpl::RestartStatistics() {
+  for (torch::nn::BatchNorm3d& norm : norms_) {
+    norm->options.momentum(c10::nullopt);
+    norm->reset_running_stats();
+  }
+}
+
+torch::Tensor GeneratorImpl::Activate(std::size_t layer, const torch::Tensor& x) {
+  return (options_.batch_norm ? norms_[layer](x) : x + biases_[layer]).relu_();
+}
+
+torch::Tensor GeneratorImpl::ForwardFolded(const torch::Tensor& z) {
+  torch::Tensor x = project_(z).view({-1, 8 * options_.width, 2, 2, 2});
+  x = Activate(0, x);                                       // [N, 8c, 2, 2, 2]
+  x = Activate(1, Unfold(UpConv(x, up_weights_[0])));       // [N, 4c, 4, 4, 4]
+  x = Activate(2, Unfold(UpConv(x, up_weights_[1])));       // [N, 2c, 8, 8, 8]
+  x = Activate(3, Unfold(UpConv(x, up_weights_[2])));       // [N, c, 16, 16, 16]
+  x = UpConv(x, last_weight_, last_bias_);                  // [N, 8, 17, 17, 17]
+  return BlurAndClearRing(x, options_.output_blur).tanh();  // [N, 8, 17, 17, 17]
+}
+
+torch::Tensor GeneratorImpl::forward(const torch::Tensor& z) {
+  return Unfold(ForwardFolded(z));  // [N, 1, 32, 32, 32]
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,21 @@
+#include "antigrasp/models/model_options.h"
+
+namespace antigrasp {
+
+void Bind(OptionTable* table, ModelOptions* options) {
+  table->Add("model.width", &options->width, 1, 256,
+             "channels of the generator's last hidden layer (16^3); 8 for two cores, 64 for a GPU");
+  table->Add("model.latent", &options->latent, 1, 4096, "length of the noise vector z");
+  table->Add("model.resolution", &options->resolution, 32, 32, "nodes along one side of the grid");
+  table->Add("model.spectral_norm", &options->spectral_norm,
+             "divide the discriminator's weights by their largest singular value");
+  table->Add("model.batch_norm", &options->batch_norm, "batch normalisation in the generator");
+  table->Add("model.output_blur", &options->output_blur,
+             "smooth the generator's output with [1 2 1]/4 along each axis, before tanh");
+  table->Add("model.truncation", &options->truncation, 0, 1,
+             "distance that a network value of 1 stands for, unit cube; 0 = raw distances");
+  table->Add("model.raw_scale", &options->raw_scale, 0.01, 100,
+             "network value per unit of distance when truncation = 0");
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,19 @@
+#include "antigrasp/train/gan_options.h"
+
+namespace antigrasp {
+
+void Bind(OptionTable* table, GanOptions* options) {
+  table->Add("gan.batch", &options->batch, 2, 4096, "shapes in one update");
+  table->Add("gan.discriminator_steps", &options->discriminator_steps, 1, 100,
+             "discriminator updates for each generator update");
+  table->Add("gan.learning_rate_g", &options->learning_rate_g, 0, 1, "Adam's rate, generator");
+  table->Add("gan.learning_rate_d", &options->learning_rate_d, 0, 1, "Adam's rate, discriminator");
+  table->Add("gan.beta1", &options->beta1, 0, 0.999999, "Adam's decay of the first moment");
+  table->Add("gan.beta2", &options->beta2, 0, 0.999999, "Adam's decay of the second moment");
+  table->Add("gan.lr_decay_fraction", &options->lr_decay_fraction, 0, 1,
+             "last share of an episode in which the learning rates fall to 0; 0 = never");
+  table->Add("gan.ema", &options->ema, 0, 0.999999,
+             "decay per step of the averaged generator; 0 = 1 - 4 / iterations, in [0.9, 0.999]");
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "antigrasp/core/options.h"
+
+namespace antigrasp {
+
+// How one GAN is trained.
+struct GanOptions {
+  int batch = 32;
+  int discriminator_steps = 1;
+  double learning_rate_g = 4e-4;
+  double learning_rate_d = 4e-4;
+  double beta1 = 0.0;
+  double beta2 = 0.9;
+  double lr_decay_fraction =
+      0.25;          // last share of an episode in which the rate falls to 0; 0 = none
+  double ema = 0.0;  // decay of the averaged generator; 0 = 1 - 4 / iterations, in [0.9, 0.999]
+};
+
+void Bind(OptionTable* table, GanOptions* options);  // keys "gan.*"
+
+}  // namespace antigrasp

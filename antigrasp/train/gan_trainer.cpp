@@ -1,0 +1,294 @@
+#include "antigrasp/train/gan_trainer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "antigrasp/core/check.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/rng.h"
+#include "antigrasp/models/folding.h"
+#include "antigrasp/models/random_tensor.h"
+#include "antigrasp/train/adam.h"
+#include "antigrasp/train/tensor_archive.h"
+
+namespace antigrasp {
+namespace {
+
+// Samples are always drawn in whole, aligned blocks of this size, so that the bits of sample i do
+// not depend on how many are asked for.
+constexpr std::int64_t kSampleBlock = 32;
+constexpr std::int64_t kStatisticsBlocks =
+    32;  // 1,024 samples: error of a channel's mean 3 % of sd
+
+torch::Tensor LatentBlock(std::uint64_t seed, std::string_view domain, std::int64_t block,
+                          std::int64_t latent) {
+  std::vector<torch::Tensor> rows;
+  for (std::int64_t i = 0; i < kSampleBlock; ++i) {
+    RngStream rng(seed, domain, static_cast<std::uint64_t>(block * kSampleBlock + i));
+    rows.push_back(NormalTensor({latent}, 1.0, &rng));
+  }
+  return torch::stack(rows);
+}
+
+// Hinge losses, section V-A: -E[min(0, -1 + D(x))] - E[min(0, -1 - D(G(z)))] and -E[D(G(z))].
+torch::Tensor DiscriminatorLoss(const torch::Tensor& real_score, const torch::Tensor& fake_score) {
+  return torch::relu(1.0 - real_score).mean() + torch::relu(1.0 + fake_score).mean();
+}
+torch::Tensor GeneratorLoss(const torch::Tensor& fake_score) { return -fake_score.mean(); }
+
+void AppendModule(const std::string& prefix, const torch::nn::Module& module, NamedTensors* out) {
+  for (const auto& tensors : {module.named_parameters(), module.named_buffers()}) {
+    for (const auto& item : tensors) {
+      std::string name = prefix + item.key();
+      std::replace(name.begin(), name.end(), '.', '/');
+      out->emplace_back(name, item.value());
+    }
+  }
+}
+
+void AppendAdam(const std::string& prefix, const Adam& adam, NamedTensors* out) {
+  for (std::size_t i = 0; i < adam.parameters().size(); ++i) {
+    out->emplace_back(prefix + "first/" + std::to_string(i), adam.first_moments()[i]);
+    out->emplace_back(prefix + "second/" + std::to_string(i), adam.second_moments()[i]);
+  }
+  out->emplace_back(prefix + "steps", adam.steps());
+}
+
+}  // namespace
+
+struct GanTrainer::Impl {
+  Impl(const ModelOptions& model_options, const GanOptions& gan_options, std::uint64_t base_seed,
+       torch::Device torch_device);
+
+  void RestartNetworks(int episode_index);
+  torch::Tensor RealBatch(const torch::Tensor& shapes, RngStream* rng) const;
+  torch::Tensor FakeBatch(RngStream* rng);
+  double UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake);
+  double UpdateGenerator(const torch::Tensor& fake);
+  void UpdateAverage();
+  void RefreshStatistics();
+  double FiniteLoss(const torch::Tensor& loss) const;
+  double LearningRateFactor() const;
+  double AverageDecay() const;
+  NamedTensors State(const torch::Tensor& progress) const;
+
+  ModelOptions model;
+  GanOptions options;
+  std::uint64_t seed;
+  torch::Device device;
+  Generator generator, average;
+  Discriminator discriminator;
+  Adam adam_generator, adam_discriminator;
+  int episode = 0;
+  std::int64_t iterations = 0, step = 0;
+  bool statistics_stale = true;  // the average's batch statistics do not belong to its weights
+};
+
+GanTrainer::Impl::Impl(const ModelOptions& model_options, const GanOptions& gan_options,
+                       std::uint64_t base_seed, torch::Device torch_device)
+    : model(model_options),
+      options(gan_options),
+      seed(base_seed),
+      device(torch_device),
+      generator(model_options),
+      average(model_options),
+      discriminator(model_options),
+      adam_generator((generator->to(device), generator->parameters()), options.beta1,
+                     options.beta2),
+      adam_discriminator((discriminator->to(device), discriminator->parameters()), options.beta1,
+                         options.beta2) {
+  average->to(device);
+  RestartNetworks(0);
+}
+
+void GanTrainer::Impl::RestartNetworks(int episode_index) {
+  RngStream rng(seed, "networks", static_cast<std::uint64_t>(episode_index));
+  generator->Initialize(&rng);
+  discriminator->Initialize(&rng);
+}
+
+torch::Tensor GanTrainer::Impl::RealBatch(const torch::Tensor& shapes, RngStream* rng) const {
+  torch::Tensor indices = torch::empty({options.batch}, torch::kLong);
+  for (std::int64_t i = 0; i < options.batch; ++i) {
+    indices[i] = static_cast<std::int64_t>(rng->Below(static_cast<std::uint64_t>(shapes.size(0))));
+  }
+  return Fold(shapes.index_select(0, indices).to(device, torch::kFloat));
+}
+
+torch::Tensor GanTrainer::Impl::FakeBatch(RngStream* rng) {
+  return generator->ForwardFolded(NormalTensor({options.batch, model.latent}, 1.0, rng).to(device));
+}
+
+double GanTrainer::Impl::UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake) {
+  const torch::Tensor score =
+      discriminator->ForwardFolded(torch::cat({real, fake.detach()}));            // [2 batch]
+  const torch::Tensor loss = DiscriminatorLoss(score.slice(0, 0, options.batch),  //
+                                               score.slice(0, options.batch));
+  const double value = FiniteLoss(loss);
+  adam_discriminator.Step(torch::autograd::grad({loss}, adam_discriminator.parameters()),
+                          options.learning_rate_d * LearningRateFactor());
+  return value;
+}
+
+double GanTrainer::Impl::UpdateGenerator(const torch::Tensor& fake) {
+  // In two legs, so that the discriminator's own gradients are not computed.
+  const torch::Tensor input = fake.detach().requires_grad_();
+  const torch::Tensor loss = GeneratorLoss(discriminator->ForwardFolded(input));
+  const double value = FiniteLoss(loss);
+  const auto grad_input = torch::autograd::grad({loss}, {input});
+  adam_generator.Step(torch::autograd::grad({fake}, adam_generator.parameters(), grad_input),
+                      options.learning_rate_g * LearningRateFactor());
+  return value;
+}
+
+// Asked before the update, so that the weights stay finite and can still be saved.
+double GanTrainer::Impl::FiniteLoss(const torch::Tensor& loss) const {
+  const double value = loss.item<double>();
+  if (!std::isfinite(value)) {
+    throw RuntimeFailure("training diverged: a loss is not finite at step " + std::to_string(step) +
+                         " of episode " + std::to_string(episode) +
+                         " (lower gan.learning_rate_g and gan.learning_rate_d)");
+  }
+  return value;
+}
+
+double GanTrainer::Impl::LearningRateFactor() const {
+  const double total = static_cast<double>(iterations);
+  const double decay_steps = total * options.lr_decay_fraction;
+  const double left = total - static_cast<double>(step);
+  return left < decay_steps ? left / decay_steps : 1.0;
+}
+
+double GanTrainer::Impl::AverageDecay() const {
+  // A window much shorter than the episode, or the average would remember the episode before.
+  const double target = options.ema > 0.0
+                            ? options.ema
+                            : std::clamp(1.0 - 4.0 / static_cast<double>(iterations), 0.9, 0.999);
+  const double t = static_cast<double>(step);
+  return std::min(target, (1.0 + t) / (10.0 + t));
+}
+
+void GanTrainer::Impl::UpdateAverage() {
+  torch::NoGradGuard no_grad;
+  const auto source = generator->parameters();
+  auto target = average->parameters();
+  for (std::size_t i = 0; i < target.size(); ++i) {
+    target[i].lerp_(source[i], 1.0 - AverageDecay());
+  }
+  statistics_stale = true;
+}
+
+void GanTrainer::Impl::RefreshStatistics() {
+  if (!statistics_stale) {
+    return;
+  }
+  statistics_stale = false;
+  if (!model.batch_norm) {
+    return;
+  }
+  average->RestartStatistics();
+  average->train();
+  for (std::int64_t block = 0; block < kStatisticsBlocks; ++block) {
+    average->ForwardFolded(LatentBlock(seed, "statistics", block, model.latent).to(device));
+  }
+}
+
+NamedTensors GanTrainer::Impl::State(const torch::Tensor& progress) const {
+  NamedTensors state;
+  AppendModule("generator/", *generator, &state);
+  AppendModule("discriminator/", *discriminator, &state);
+  AppendModule("average/", *average, &state);
+  AppendAdam("adam_generator/", adam_generator, &state);
+  AppendAdam("adam_discriminator/", adam_discriminator, &state);
+  state.emplace_back("progress", progress);
+  return state;
+}
+
+GanTrainer::GanTrainer(const ModelOptions& model, const GanOptions& options, std::uint64_t seed,
+                       torch::Device device)
+    : impl_(std::make_unique<Impl>(model, options, seed, device)) {
+  BeginEpisode(0, 1, false);
+}
+
+GanTrainer::~GanTrainer() = default;
+
+void GanTrainer::BeginEpisode(int episode, std::int64_t iterations, bool restart_networks) {
+  AG_CHECK(iterations > 0, "an episode has at least one iteration");
+  Impl& t = *impl_;
+  if (restart_networks) {
+    t.RestartNetworks(episode);
+  }
+  t.adam_generator.Restart();
+  t.adam_discriminator.Restart();
+  t.episode = episode;
+  t.iterations = iterations;
+  t.step = 0;
+  torch::NoGradGuard no_grad;
+  auto target = t.average->parameters();
+  const auto source = t.generator->parameters();
+  for (std::size_t i = 0; i < target.size(); ++i) {
+    target[i].copy_(source[i]);
+  }
+  t.statistics_stale = true;
+}
+
+GanLosses GanTrainer::Step(const torch::Tensor& shapes) {
+  Impl& t = *impl_;
+  AG_CHECK(t.step < t.iterations, "the episode is over");
+  AG_CHECK(shapes.dim() == 5 && shapes.size(0) > 0, "shapes must be [N, 1, 32, 32, 32], N > 0");
+  RngStream rng(t.seed, "gan", static_cast<std::uint64_t>(t.episode),
+                static_cast<std::uint64_t>(t.step));
+  t.generator->train();
+  t.discriminator->train();
+  GanLosses losses;
+  torch::Tensor fake;
+  // The last discriminator update and the generator's share one forward of G: the discriminator
+  // sees the fakes detached, then the generator is judged on the same fakes by the updated D.
+  for (int k = 1; k <= t.options.discriminator_steps; ++k) {
+    const torch::Tensor real = t.RealBatch(shapes, &rng);
+    torch::AutoGradMode gradients(k == t.options.discriminator_steps);
+    fake = t.FakeBatch(&rng);
+    torch::AutoGradMode discriminator_gradients(true);
+    losses.discriminator = t.UpdateDiscriminator(real, fake);
+  }
+  losses.generator = t.UpdateGenerator(fake);
+  t.UpdateAverage();
+  ++t.step;
+  return losses;
+}
+
+std::int64_t GanTrainer::step() const { return impl_->step; }
+std::int64_t GanTrainer::iterations() const { return impl_->iterations; }
+int GanTrainer::episode() const { return impl_->episode; }
+
+torch::Tensor GanTrainer::Sample(std::uint64_t seed, std::int64_t first, std::int64_t count) {
+  AG_CHECK(first >= 0 && count >= 0, "samples are numbered from 0");
+  torch::NoGradGuard no_grad;
+  Impl& t = *impl_;
+  t.RefreshStatistics();
+  t.average->eval();
+  std::vector<torch::Tensor> parts = {torch::empty({0, 1, 32, 32, 32})};
+  for (std::int64_t block = first / kSampleBlock; block * kSampleBlock < first + count; ++block) {
+    const torch::Tensor z = LatentBlock(seed, "latent", block, t.model.latent);
+    const std::int64_t begin = std::max<std::int64_t>(first - block * kSampleBlock, 0);
+    const std::int64_t end = std::min(first + count - block * kSampleBlock, kSampleBlock);
+    parts.push_back(t.average->forward(z.to(t.device)).slice(0, begin, end).cpu());
+  }
+  return torch::cat(parts);
+}
+
+void GanTrainer::Save(torch::serialize::OutputArchive* archive) const {
+  const std::vector<std::int64_t> progress = {impl_->episode, impl_->iterations, impl_->step};
+  WriteTensors(impl_->State(torch::tensor(progress)), archive);
+}
+
+void GanTrainer::Load(torch::serialize::InputArchive* archive) {
+  const torch::Tensor progress = torch::zeros({3}, torch::kLong);
+  ReadTensors(impl_->State(progress), "checkpoint", archive);
+  impl_->episode = static_cast<int>(progress[0].item<std::int64_t>());
+  impl_->iterations = progress[1].item<std::int64_t>();
+  impl_->step = progress[2].item<std::int64_t>();
+  impl_->statistics_stale = true;
+}
+
+}  // namespace antigrasp

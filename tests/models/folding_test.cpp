@@ -1,0 +1,132 @@
+#include "antigrasp/models/folding.h"
+
+#include <gtest/gtest.h>
+#include <torch/torch.h>
+
+#include "antigrasp/core/rng.h"
+#include "antigrasp/models/random_tensor.h"
+
+namespace antigrasp {
+namespace {
+
+torch::Tensor Normal(at::IntArrayRef shape, std::uint64_t stream) {
+  RngStream rng(7, "folding_test", stream);
+  return NormalTensor(shape, 1.0, &rng);
+}
+
+double MaxDifference(const torch::Tensor& a, const torch::Tensor& b) {
+  return (a - b).abs().max().item<double>();
+}
+
+// [1 2 1]/4 along the three axes as one dense kernel.
+torch::Tensor BlurKernel() {
+  const torch::Tensor taps = torch::tensor({0.25F, 0.5F, 0.25F});
+  return (taps.view({3, 1, 1}) * taps.view({3, 1}) * taps).view({1, 1, 3, 3, 3});
+}
+
+TEST(Folding, UnfoldReturnsTheFoldedGridBitForBit) {
+  for (const std::int64_t side : {2, 4, 16, 32}) {
+    const torch::Tensor grid = Normal({2, 3, side, side, side}, 1);
+    const torch::Tensor folded = Fold(grid);
+    EXPECT_EQ(folded.sizes(),
+              (std::vector<std::int64_t>{2, 24, side / 2 + 1, side / 2 + 1, side / 2 + 1}));
+    EXPECT_TRUE(torch::equal(Unfold(folded), grid));
+    EXPECT_DOUBLE_EQ(folded.to(torch::kDouble).abs().sum().item<double>(),
+                     grid.to(torch::kDouble).abs().sum().item<double>());  // the ring is zero
+  }
+}
+
+TEST(Folding, FloatKernelsAgreeWithTheGeneralTensorPath) {
+  const torch::Tensor grid = Normal({2, 3, 8, 8, 8}, 2), folded = Normal({2, 8, 17, 17, 17}, 3);
+  const auto as_double = [](const torch::Tensor& x) { return x.to(torch::kDouble); };
+  EXPECT_TRUE(torch::equal(as_double(Fold(grid)), Fold(as_double(grid))));
+  EXPECT_TRUE(torch::equal(as_double(Unfold(folded)), Unfold(as_double(folded))));
+  EXPECT_TRUE(torch::equal(as_double(BlurAndClearRing(folded, false)),
+                           BlurAndClearRing(as_double(folded), false)));
+  EXPECT_LT(MaxDifference(as_double(BlurAndClearRing(folded, true)),
+                          BlurAndClearRing(as_double(folded), true)),
+            1e-6);
+}
+
+TEST(Folding, FoldAndUnfoldAreEachOthersGradient) {
+  torch::Tensor grid = Normal({1, 2, 4, 4, 4}, 4).requires_grad_();
+  const torch::Tensor weight = Normal({1, 16, 3, 3, 3}, 5);
+  (Fold(grid) * weight).sum().backward();
+  EXPECT_TRUE(torch::equal(grid.grad(), Unfold(weight)));
+  torch::Tensor folded = Normal({1, 16, 3, 3, 3}, 6).requires_grad_();
+  const torch::Tensor grid_weight = Normal({1, 2, 4, 4, 4}, 7);
+  (Unfold(folded) * grid_weight).sum().backward();
+  EXPECT_TRUE(torch::equal(folded.grad(), Fold(grid_weight)));
+}
+
+TEST(Folding, DownConvEqualsThePlainStridedConvolutionWithItsGradients) {
+  for (const auto& [in, out, side] : {std::array{1, 5, 32}, {3, 4, 8}, {6, 2, 4}}) {
+    std::vector<torch::Tensor> plain = {Normal({2, in, side, side, side}, 8),
+                                        Normal({out, in, 4, 4, 4}, 9), Normal({out}, 10)};
+    std::vector<torch::Tensor> folded;
+    for (torch::Tensor& x : plain) {
+      folded.push_back(x.clone().requires_grad_());
+      x.requires_grad_();
+    }
+    const torch::Tensor expected = torch::conv3d(plain[0], plain[1], plain[2], 2, 1);
+    const torch::Tensor actual = DownConv(Fold(folded[0]), folded[1], folded[2]);
+    const double scale = expected.abs().max().item<double>();
+    EXPECT_LT(MaxDifference(actual, expected), 1e-5 * scale);
+    const torch::Tensor weight = Normal(expected.sizes(), 11);
+    (expected * weight).sum().backward();
+    (actual * weight).sum().backward();
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      EXPECT_LT(MaxDifference(folded[i].grad(), plain[i].grad()),
+                1e-5 * plain[i].grad().abs().max().item<double>())
+          << "gradient " << i;
+    }
+  }
+}
+
+TEST(Folding, UpConvEqualsThePlainTransposedConvolutionWithItsGradients) {
+  for (const auto& [in, out, side] : {std::array{5, 1, 16}, {4, 3, 4}, {2, 6, 2}}) {
+    std::vector<torch::Tensor> plain = {Normal({2, in, side, side, side}, 12),
+                                        Normal({in, out, 4, 4, 4}, 13), Normal({out}, 14)};
+    std::vector<torch::Tensor> folded;
+    for (torch::Tensor& x : plain) {
+      folded.push_back(x.clone().requires_grad_());
+      x.requires_grad_();
+    }
+    const torch::Tensor expected = torch::conv_transpose3d(plain[0], plain[1], plain[2], 2, 1);
+    const torch::Tensor actual = Unfold(UpConv(folded[0], folded[1], folded[2]));
+    EXPECT_LT(MaxDifference(actual, expected), 1e-5 * expected.abs().max().item<double>());
+    const torch::Tensor weight = Normal(expected.sizes(), 15);
+    (expected * weight).sum().backward();
+    (actual * weight).sum().backward();
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      EXPECT_LT(MaxDifference(folded[i].grad(), plain[i].grad()),
+                1e-5 * plain[i].grad().abs().max().item<double>())
+          << "gradient " << i;
+    }
+  }
+}
+
+TEST(Folding, BlurIsTheBinomialFilterOfTheUncroppedOutput) {
+  const torch::Tensor x = Normal({2, 3, 16, 16, 16}, 16), weight = Normal({3, 1, 4, 4, 4}, 17);
+  const torch::Tensor uncropped = torch::conv_transpose3d(x, weight, {}, 2, 0);  // 34^3
+  const torch::Tensor expected = torch::conv3d(uncropped, BlurKernel(), {}, 1, 1)
+                                     .slice(2, 1, 33)
+                                     .slice(3, 1, 33)
+                                     .slice(4, 1, 33);
+  const torch::Tensor actual = BlurAndClearRing(UpConv(x, weight), true);
+  EXPECT_LT(MaxDifference(Unfold(actual), expected), 1e-5);
+  EXPECT_TRUE(torch::equal(Fold(Unfold(actual)), actual)) << "the ring is not zero";
+}
+
+TEST(Folding, BlurKeepsAConstantInsideAndItsGradientIsItsTranspose) {
+  const torch::Tensor ones = torch::ones({1, 8, 17, 17, 17});
+  EXPECT_TRUE(torch::equal(Unfold(BlurAndClearRing(ones, true)), torch::ones({1, 1, 32, 32, 32})));
+  torch::Tensor x = Normal({1, 8, 17, 17, 17}, 18).requires_grad_();
+  const torch::Tensor y = Normal({1, 8, 17, 17, 17}, 19);
+  const torch::Tensor product = (BlurAndClearRing(x, true) * y).sum();  // <P B x, y>
+  product.backward();
+  EXPECT_NEAR((x * x.grad()).sum().item<double>(), product.item<double>(), 1e-2);  // <x, B P y>
+}
+
+}  // namespace
+}  // namespace antigrasp

@@ -1,0 +1,185 @@
+#include <gtest/gtest.h>
+#include <torch/torch.h>
+
+#include "antigrasp/core/error.h"
+#include "antigrasp/models/discriminator.h"
+#include "antigrasp/models/folding.h"
+#include "antigrasp/models/generator.h"
+#include "antigrasp/models/random_tensor.h"
+#include "antigrasp/models/sdf_values.h"
+
+namespace antigrasp {
+namespace {
+
+ModelOptions TinyModel() {
+  ModelOptions options;
+  options.width = 2;
+  options.latent = 5;
+  return options;
+}
+
+torch::Tensor Latent(std::int64_t count, std::int64_t length) {
+  RngStream rng(3, "networks_test");
+  return NormalTensor({count, length}, 1.0, &rng);
+}
+
+// The generator in the library's own layers, from its parameters by name.
+torch::Tensor PlainGenerator(Generator& generator, const torch::Tensor& z) {
+  const auto parameters = generator->named_parameters();
+  torch::Tensor x = torch::linear(z, parameters["project.weight"]).view({z.size(0), -1, 2, 2, 2});
+  for (int i = 0; i < 4; ++i) {
+    const std::string norm = "norm" + std::to_string(i);
+    x = torch::relu(torch::batch_norm(x, parameters[norm + ".weight"], parameters[norm + ".bias"],
+                                      {}, {}, true, 0.1, 1e-5, false));
+    x = i < 3
+            ? torch::conv_transpose3d(x, parameters["up" + std::to_string(i + 1) + "_weight"], {},
+                                      2, 1)
+            : torch::conv_transpose3d(x, parameters["last_weight"], parameters["last_bias"], 2, 1);
+  }
+  return torch::tanh(x);
+}
+
+TEST(Generator, EqualsThePlainLayersWithoutBlur) {
+  ModelOptions options = TinyModel();
+  options.output_blur = false;
+  Generator generator(options);
+  const torch::Tensor z = Latent(4, options.latent);
+  const torch::Tensor actual = generator(z), expected = PlainGenerator(generator, z);
+  EXPECT_LT((actual - expected).abs().max().item<double>(), 1e-5);
+  const torch::Tensor weight = Latent(4, 32 * 32 * 32).view({4, 1, 32, 32, 32});
+  const auto gradients = torch::autograd::grad({(actual * weight).sum()}, generator->parameters());
+  const auto plain = torch::autograd::grad({(expected * weight).sum()}, generator->parameters());
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_LT((gradients[i] - plain[i]).abs().max().item<double>(),
+              1e-4 * plain[i].abs().max().item<double>())
+        << "parameter " << i;
+  }
+}
+
+TEST(Generator, FoldedOutputIsTheFoldedGrid) {
+  Generator generator(TinyModel());
+  generator->eval();
+  const torch::Tensor z = Latent(2, 5);
+  EXPECT_TRUE(torch::equal(generator->ForwardFolded(z), Fold(generator(z))));
+}
+
+TEST(Generator, ValuesLieWithinOneAndStartOutsideOnTheBorder) {
+  for (const bool batch_norm : {true, false}) {
+    ModelOptions options = TinyModel();
+    options.batch_norm = batch_norm;
+    options.width = 4;
+    Generator generator(options);
+    const torch::Tensor grid = generator(Latent(8, options.latent));
+    EXPECT_EQ(grid.sizes(), (std::vector<std::int64_t>{8, 1, 32, 32, 32}));
+    EXPECT_LE(grid.abs().max().item<double>(), 1.0);
+    EXPECT_LT(grid.mean().item<double>(), 0.0);
+    EXPECT_EQ(generator->buffers().empty(), !batch_norm);
+  }
+}
+
+TEST(Generator, InitialShapesAreSmooth) {
+  // Trilinear kernels: second differences of a fresh sample stay far below white noise's.
+  ModelOptions options = TinyModel();
+  options.width = 8;
+  Generator generator(options);
+  const torch::Tensor x = generator(Latent(16, options.latent)).slice(4, 4, 28);
+  const torch::Tensor second = x.slice(4, 0, -2) - 2 * x.slice(4, 1, -1) + x.slice(4, 2);
+  EXPECT_LT(second.std().item<double>(), 0.2 * x.std().item<double>());
+}
+
+TEST(Generator, RestartedStatisticsAreTheAverageOverTheBatches) {
+  ModelOptions options = TinyModel();
+  Generator generator(options);
+  generator->RestartStatistics();
+  generator->train();
+  const torch::Tensor a = Latent(8, 5), b = 2.0 * Latent(8, 5) + 1.0;
+  const torch::Tensor weight = generator->named_parameters()["project.weight"];
+  const auto channel_means = [&](const torch::Tensor& z) {
+    return torch::linear(z, weight).view({8, -1, 8}).mean(at::IntArrayRef({0, 2}));
+  };
+  generator(a);
+  generator(b);
+  const torch::Tensor mean = generator->named_buffers()["norm0.running_mean"];
+  const torch::Tensor expected = (channel_means(a) + channel_means(b)) / 2;
+  EXPECT_LT((mean - expected).abs().max().item().toDouble(), 1e-5);
+}
+
+TEST(Generator, WeightsDependOnTheStreamOnly) {
+  Generator a(TinyModel()), b(TinyModel());
+  for (Generator* generator : {&a, &b}) {
+    RngStream rng(42, "weights");
+    (*generator)->Initialize(&rng);
+  }
+  for (std::size_t i = 0; i < a->parameters().size(); ++i) {
+    EXPECT_TRUE(torch::equal(a->parameters()[i], b->parameters()[i]));
+  }
+  RngStream other(43, "weights");
+  b->Initialize(&other);
+  EXPECT_FALSE(torch::equal(a->parameters()[0], b->parameters()[0]));
+}
+
+TEST(Discriminator, EqualsThePlainLayers) {
+  ModelOptions options = TinyModel();
+  options.spectral_norm = false;
+  Discriminator discriminator(options);
+  const auto parameters = discriminator->named_parameters();
+  const torch::Tensor grid = Latent(3, 32 * 32 * 32).view({3, 1, 32, 32, 32});
+  torch::Tensor x = grid;
+  for (int i = 1; i <= 4; ++i) {
+    const std::string name = std::to_string(i);
+    x = torch::leaky_relu(
+        torch::conv3d(x, parameters["layer" + name + ".weight"], parameters["bias" + name], 2, 1),
+        0.2);
+  }
+  x = torch::linear(x.flatten(1), parameters["layer5.weight"], parameters["bias5"]).squeeze(1);
+  const torch::Tensor score = discriminator(grid);
+  EXPECT_EQ(score.sizes(), (std::vector<std::int64_t>{3}));
+  EXPECT_LT((score - x).abs().max().item<double>(), 1e-5 * (1 + x.abs().max().item<double>()));
+}
+
+TEST(Discriminator, SpectralNormBoundsItsSlope) {
+  // Every layer has a stretch of at most 1 per patch; each node is in 2^3 patches of a strided
+  // kernel of 4, so a convolution stretches by at most sqrt(8): four of them by 64.
+  Discriminator discriminator(TinyModel());
+  for (int i = 0; i < 50; ++i) {
+    discriminator(torch::zeros({1, 1, 32, 32, 32}));
+  }
+  discriminator->eval();
+  const torch::Tensor a = Latent(4, 32 * 32 * 32).view({4, 1, 32, 32, 32}), b = a.flip(0);
+  const torch::Tensor change = (discriminator(a) - discriminator(b)).abs();
+  EXPECT_TRUE((change <= 64.1 * (a - b).flatten(1).norm(2, 1)).all().item<bool>());
+}
+
+TEST(SdfValues, TruncationClampsAndComesBack) {
+  ModelOptions options;
+  options.truncation = 0.1;
+  const torch::Tensor distances = torch::tensor({-0.7, -0.1, -0.05, 0.0, 0.025, 0.3});
+  EXPECT_TRUE(torch::allclose(NetworkValues(distances, options),
+                              torch::tensor({-1.0, -1.0, -0.5, 0.0, 0.25, 1.0})));
+  EXPECT_TRUE(torch::allclose(Distances(NetworkValues(distances, options), options),
+                              distances.clamp(-0.1, 0.1)));
+}
+
+TEST(SdfValues, RawDistancesAreScaled) {
+  ModelOptions options;
+  options.truncation = 0.0;
+  options.raw_scale = 2.0;
+  const torch::Tensor distances = torch::tensor({-0.7, 0.25});
+  EXPECT_TRUE(torch::allclose(NetworkValues(distances, options), torch::tensor({-1.0, 0.5})));
+  EXPECT_TRUE(
+      torch::allclose(Distances(torch::tensor({-1.0, 0.5}), options), torch::tensor({-0.5, 0.25})));
+}
+
+TEST(ModelOptions, RefuseValuesOutOfRange) {
+  ModelOptions options;
+  OptionTable table;
+  Bind(&table, &options);
+  table.ApplyOverride("model.width=16");
+  EXPECT_EQ(options.width, 16);
+  EXPECT_THROW(table.ApplyOverride("model.width=0"), InputError);
+  EXPECT_THROW(table.ApplyOverride("model.resolution=64"), InputError);
+  EXPECT_THROW(table.ApplyOverride("model.truncation=-0.1"), InputError);
+}
+
+}  // namespace
+}  // namespace antigrasp

@@ -1,0 +1,258 @@
+#include "antigrasp/train/gan_trainer.h"
+
+#include <gtest/gtest.h>
+#include <torch/torch.h>
+
+#include <limits>
+#include <sstream>
+
+#include "antigrasp/core/error.h"
+
+namespace antigrasp {
+namespace {
+
+ModelOptions TinyModel() {
+  ModelOptions options;
+  options.width = 2;
+  options.latent = 8;
+  return options;
+}
+
+GanOptions TinyGan() {
+  GanOptions options;
+  options.batch = 4;
+  return options;
+}
+
+// Spheres of several radii, as network values.
+torch::Tensor Spheres(std::int64_t count) {
+  const torch::Tensor axis = torch::linspace(-0.5, 0.5, 32);
+  const torch::Tensor distance =
+      (axis.view({32, 1, 1}).square() + axis.view({32, 1}).square() + axis.square()).sqrt();
+  const torch::Tensor radius = torch::linspace(0.2, 0.4, count).view({count, 1, 1, 1, 1});
+  return ((radius - distance.view({1, 1, 32, 32, 32})) / 0.1).clamp(-1, 1);
+}
+
+std::string Saved(const GanTrainer& trainer) {
+  torch::serialize::OutputArchive archive;
+  trainer.Save(&archive);
+  std::ostringstream file;
+  archive.save_to(file);
+  return file.str();
+}
+
+void LoadFrom(const std::string& bytes, GanTrainer* trainer) {
+  std::istringstream file(bytes);
+  torch::serialize::InputArchive archive;
+  archive.load_from(file);
+  trainer->Load(&archive);
+}
+
+// All tensors of a saved state, in the order of their names.
+std::vector<std::pair<std::string, torch::Tensor>> State(const GanTrainer& trainer) {
+  std::istringstream file(Saved(trainer));
+  torch::serialize::InputArchive archive;
+  archive.load_from(file);
+  std::vector<std::pair<std::string, torch::Tensor>> state;
+  for (const std::string& key : archive.keys()) {
+    state.emplace_back(key, torch::Tensor());
+    archive.read(key, state.back().second, true);
+  }
+  return state;
+}
+
+void ExpectSameState(const GanTrainer& a, const GanTrainer& b) {
+  const auto left = State(a), right = State(b);
+  ASSERT_EQ(left.size(), right.size());
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    EXPECT_EQ(left[i].first, right[i].first);
+    EXPECT_TRUE(torch::equal(left[i].second, right[i].second)) << left[i].first;
+  }
+}
+
+void Train(int steps, const torch::Tensor& shapes, GanTrainer* trainer) {
+  for (int i = 0; i < steps; ++i) {
+    trainer->Step(shapes);
+  }
+}
+
+TEST(GanTrainer, SameSeedGivesTheSameBits) {
+  const torch::Tensor shapes = Spheres(6);
+  GanTrainer a(TinyModel(), TinyGan(), 5, torch::kCPU), b(TinyModel(), TinyGan(), 5, torch::kCPU);
+  for (GanTrainer* trainer : {&a, &b}) {
+    trainer->BeginEpisode(0, 10, true);
+    Train(4, shapes, trainer);
+  }
+  ExpectSameState(a, b);
+  GanTrainer other(TinyModel(), TinyGan(), 6, torch::kCPU);
+  EXPECT_FALSE(torch::equal(other.Sample(1, 0, 1), a.Sample(1, 0, 1)));
+}
+
+TEST(GanTrainer, ResumingEqualsGoingOnBitForBit) {
+  const torch::Tensor shapes = Spheres(6);
+  for (const bool batch_norm : {true, false}) {
+    ModelOptions model = TinyModel();
+    model.batch_norm = batch_norm;
+    GanTrainer straight(model, TinyGan(), 5, torch::kCPU);
+    straight.BeginEpisode(2, 8, true);
+    Train(3, shapes, &straight);
+    straight.Sample(1, 0, 2);  // sampling leaves no trace in what follows
+    const std::string bytes = Saved(straight);
+    Train(3, shapes, &straight);
+
+    GanTrainer resumed(model, TinyGan(), 5, torch::kCPU);
+    LoadFrom(bytes, &resumed);
+    EXPECT_EQ(resumed.episode(), 2);
+    EXPECT_EQ(resumed.iterations(), 8);
+    EXPECT_EQ(resumed.step(), 3);
+    Train(3, shapes, &resumed);
+    EXPECT_TRUE(torch::equal(resumed.Sample(9, 0, 3), straight.Sample(9, 0, 3)));
+    ExpectSameState(resumed, straight);
+  }
+}
+
+TEST(GanTrainer, TheStateHoldsEveryPartByName) {
+  GanTrainer trainer(TinyModel(), TinyGan(), 5, torch::kCPU);
+  const auto state = State(trainer);
+  for (const std::string name :
+       {"generator/last_weight", "generator/norm0/running_mean", "discriminator/layer1/weight",
+        "discriminator/layer5/u", "average/project/weight", "adam_generator/first/0",
+        "adam_discriminator/second/0", "adam_generator/steps", "progress"}) {
+    EXPECT_TRUE(std::any_of(state.begin(), state.end(), [&](const auto& item) {
+      return item.first == name;
+    })) << name;
+  }
+}
+
+TEST(GanTrainer, LoadRefusesAStateThatDoesNotFitAndChangesNothing) {
+  GanTrainer trainer(TinyModel(), TinyGan(), 5, torch::kCPU);
+  const torch::Tensor before = trainer.Sample(1, 0, 2);
+
+  ModelOptions wider = TinyModel();
+  wider.width = 4;
+  const std::string wrong_shape = Saved(GanTrainer(wider, TinyGan(), 5, torch::kCPU));
+  EXPECT_THROW(LoadFrom(wrong_shape, &trainer), InputError);
+
+  ModelOptions plain = TinyModel();
+  plain.batch_norm = false;
+  const std::string missing = Saved(GanTrainer(plain, TinyGan(), 5, torch::kCPU));
+  try {
+    LoadFrom(missing, &trainer);
+    FAIL() << "a missing tensor was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("norm0"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(torch::equal(trainer.Sample(1, 0, 2), before));
+}
+
+TEST(GanTrainer, SampleDoesNotDependOnHowManyAreAskedFor) {
+  GanTrainer trainer(TinyModel(), TinyGan(), 5, torch::kCPU);
+  trainer.BeginEpisode(0, 4, true);
+  Train(2, Spheres(4), &trainer);
+  const torch::Tensor all = trainer.Sample(3, 0, 70);
+  EXPECT_EQ(all.sizes(), (std::vector<std::int64_t>{70, 1, 32, 32, 32}));
+  EXPECT_TRUE(torch::equal(trainer.Sample(3, 33, 1)[0], all[33]));
+  EXPECT_TRUE(torch::equal(trainer.Sample(3, 20, 40), all.slice(0, 20, 60)));
+  EXPECT_EQ(trainer.Sample(3, 5, 0).size(0), 0);
+  EXPECT_FALSE(torch::equal(trainer.Sample(4, 0, 1)[0], all[0]));
+}
+
+TEST(GanTrainer, HalfPrecisionShapesTrainLikeFloat) {
+  GanTrainer half(TinyModel(), TinyGan(), 5, torch::kCPU);
+  GanTrainer full(TinyModel(), TinyGan(), 5, torch::kCPU);
+  const torch::Tensor shapes = Spheres(4).to(torch::kHalf);
+  EXPECT_EQ(half.Step(shapes).discriminator, full.Step(shapes.to(torch::kFloat)).discriminator);
+}
+
+TEST(GanTrainer, TheFirstLossesAreTheHingeAtScoresNearZero) {
+  // Fresh discriminator, scores near 0: L_D = 1 + 1, L_G = 0.
+  GanTrainer trainer(TinyModel(), TinyGan(), 5, torch::kCPU);
+  const GanLosses losses = trainer.Step(Spheres(4));
+  EXPECT_NEAR(losses.discriminator, 2.0, 0.7);
+  EXPECT_NEAR(losses.generator, 0.0, 0.7);
+}
+
+TEST(GanTrainer, MovesTowardsASingleShape) {
+  ModelOptions model = TinyModel();
+  model.width = 4;
+  GanOptions options;
+  options.batch = 8;
+  options.learning_rate_g = options.learning_rate_d = 2e-3;
+  GanTrainer trainer(model, options, 5, torch::kCPU);
+  const torch::Tensor sphere = Spheres(1);
+  trainer.BeginEpisode(0, 100, true);
+  const auto error = [&] {
+    return (trainer.Sample(1, 0, 16) - sphere).abs().mean().item<double>();
+  };
+  const double before = error();
+  Train(100, sphere, &trainer);
+  EXPECT_LT(error(), 0.8 * before);
+}
+
+TEST(GanTrainer, AnEpisodeKeepsTheNetworksAndRestartsTheRest) {
+  const torch::Tensor shapes = Spheres(4);
+  GanTrainer trainer(TinyModel(), TinyGan(), 5, torch::kCPU);
+  trainer.BeginEpisode(0, 3, true);
+  Train(3, shapes, &trainer);
+  auto before = State(trainer);
+  trainer.BeginEpisode(1, 5, false);
+  EXPECT_EQ(trainer.step(), 0);
+  auto after = State(trainer);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const std::string& name = before[i].first;
+    if (name.rfind("generator/", 0) == 0 || name.rfind("discriminator/", 0) == 0) {
+      EXPECT_TRUE(torch::equal(before[i].second, after[i].second)) << name;
+    } else if (name.rfind("adam", 0) == 0) {
+      EXPECT_EQ(after[i].second.abs().sum().item<double>(), 0.0) << name;
+    }
+  }
+  trainer.BeginEpisode(1, 5, true);
+  EXPECT_FALSE(torch::equal(State(trainer)[0].second, before[0].second));
+}
+
+TEST(GanTrainer, MoreDiscriminatorStepsAndNoSpectralNormRun) {
+  ModelOptions model = TinyModel();
+  model.spectral_norm = false;
+  GanOptions options = TinyGan();
+  options.discriminator_steps = 3;
+  GanTrainer trainer(model, options, 5, torch::kCPU);
+  trainer.BeginEpisode(0, 2, true);
+  Train(2, Spheres(4), &trainer);
+  EXPECT_EQ(trainer.step(), 2);
+  EXPECT_TRUE(trainer.Sample(1, 0, 4).isfinite().all().item<bool>());
+}
+
+TEST(GanTrainer, NotFiniteLossNamesTheStep) {
+  GanTrainer trainer(TinyModel(), TinyGan(), 5, torch::kCPU);
+  trainer.BeginEpisode(0, 3, true);
+  trainer.Step(Spheres(4));
+  const torch::Tensor broken =
+      torch::full({4, 1, 32, 32, 32}, std::numeric_limits<float>::quiet_NaN());
+  try {
+    trainer.Step(broken);
+    FAIL() << "a NaN was accepted";
+  } catch (const RuntimeFailure& error) {
+    EXPECT_NE(std::string(error.what()).find("step 1"), std::string::npos) << error.what();
+  }
+}
+
+TEST(GanTrainer, RefusesStepsBeyondTheEpisodeAndEmptySets) {
+  GanTrainer trainer(TinyModel(), TinyGan(), 5, torch::kCPU);
+  trainer.BeginEpisode(0, 1, true);
+  EXPECT_THROW(trainer.Step(torch::zeros({0, 1, 32, 32, 32})), std::logic_error);
+  trainer.Step(Spheres(4));
+  EXPECT_THROW(trainer.Step(Spheres(4)), std::logic_error);
+}
+
+TEST(GanOptions, RefuseValuesOutOfRange) {
+  GanOptions options;
+  OptionTable table;
+  Bind(&table, &options);
+  table.ApplyOverride("gan.batch=16");
+  EXPECT_EQ(options.batch, 16);
+  EXPECT_THROW(table.ApplyOverride("gan.beta2=1"), InputError);
+  EXPECT_THROW(table.ApplyOverride("gan.batch=1"), InputError);
+}
+
+}  // namespace
+}  // namespace antigrasp
