@@ -100,6 +100,16 @@ class RowCrossings {
   std::vector<char> flips_;  // per row: crossings before node 0, between nodes, after the last
 };
 
+// Nodes from x on; behind the end of the grid the last one again.
+TriangleTree::Row RowOfNodes(const SdfGrid& grid, int x, int y, int z) {
+  const Eigen::Vector3d first = grid.Node(x, y, z);
+  TriangleTree::Row row{{}, first.y(), first.z()};
+  for (std::size_t i = 0; i < row.x.size(); ++i) {
+    row.x[i] = grid.Node(std::min(x + static_cast<int>(i), grid.n - 1), y, z).x();
+  }
+  return row;
+}
+
 }  // namespace
 
 void MeshToSdf(const TriangleMesh& mesh, SdfGrid* grid) {
@@ -109,18 +119,19 @@ void MeshToSdf(const TriangleMesh& mesh, SdfGrid* grid) {
   const RowCrossings crossings(mesh, *grid);
   const auto n = static_cast<std::size_t>(grid->n);
   grid->values.resize(n * n * n);
-  std::int32_t row_hint = 0;
+  std::int32_t hint = 0;
   for (int z = 0; z < grid->n; ++z) {
     for (int y = 0; y < grid->n; ++y) {
       const std::vector<char> inside = crossings.InsideOfRow(y, z);
-      std::int32_t hint = row_hint;
-      for (int x = 0; x < grid->n; ++x) {
-        const TriangleTree::Hit hit = tree.Nearest(grid->Node(x, y, z), hint);
-        hint = hit.triangle;
-        if (x == 0) row_hint = hint;
-        const auto distance = static_cast<float>(std::sqrt(hit.squared_distance));
-        grid->values[grid->Index(x, y, z)] =
-            inside[static_cast<std::size_t>(x)] ? distance : -distance;
+      for (int x = 0; x < grid->n; x += TriangleTree::kRowPoints) {
+        const auto hits = tree.Nearest(RowOfNodes(*grid, x, y, z), hint);
+        hint = hits[0].triangle;
+        for (int i = 0; i < TriangleTree::kRowPoints && x + i < grid->n; ++i) {
+          const auto distance =
+              static_cast<float>(std::sqrt(hits[static_cast<std::size_t>(i)].squared_distance));
+          grid->values[grid->Index(x + i, y, z)] =
+              inside[static_cast<std::size_t>(x + i)] != 0 ? distance : -distance;
+        }
       }
     }
   }

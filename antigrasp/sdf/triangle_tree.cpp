@@ -15,10 +15,28 @@ namespace {
 constexpr std::int32_t kLeafSize = 4;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double SquaredDistanceToSegment(const Eigen::Vector3d& from_start, const Eigen::Vector3d& edge,
-                                double inverse_squared_length) {
-  const double t = std::clamp(from_start.dot(edge) * inverse_squared_length, 0.0, 1.0);
-  return (from_start - t * edge).squaredNorm();
+using Pair = double __attribute__((vector_size(16)));
+
+Pair Min(const Pair& a, const Pair& b) { return a < b ? a : b; }
+Pair Max(const Pair& a, const Pair& b) { return a > b ? a : b; }
+Pair Both(double v) { return Pair{v, v}; }
+
+Pair PairOf(const TriangleTree::Row& row, std::size_t i) {
+  return Pair{row.x[2 * i], row.x[2 * i + 1]};
+}
+
+template <typename RowValues>
+double Largest(const RowValues& values) {
+  Pair largest = values[0];
+  for (const Pair& pair : values) largest = Max(largest, pair);
+  return std::max(largest[0], largest[1]);
+}
+
+template <typename RowValues>
+bool AnyLess(const RowValues& a, const RowValues& b) {
+  auto less = a[0] < b[0];
+  for (std::size_t i = 1; i < a.size(); ++i) less |= a[i] < b[i];
+  return (less[0] | less[1]) != 0;
 }
 
 }  // namespace
@@ -63,28 +81,49 @@ TriangleTree::Triangle TriangleTree::Prepare(const Eigen::Vector3d& a, const Eig
   return t;
 }
 
-double TriangleTree::SquaredDistance(const Triangle& t, const Eigen::Vector3d& point) {
-  const std::array<Eigen::Vector3d, 3> from = {point - t.corner[0], point - t.corner[1],
-                                               point - t.corner[2]};
-  double best = kInfinity;
-  for (std::size_t i = 0; i < 3; ++i) {
-    // Seen from outside the face, the nearest point lies on an edge that faces the point.
-    if (t.degenerate || from[i].dot(t.inward[i]) < 0.0) {
-      best =
-          std::min(best, SquaredDistanceToSegment(from[i], t.edge[i], t.inverse_squared_length[i]));
+TriangleTree::RowValues TriangleTree::SquaredDistances(const Triangle& t, const Row& row) {
+  RowValues to_edges, facing;  // facing < 0: the point is beyond some edge of the face
+  to_edges.fill(Both(kInfinity));
+  facing.fill(Both(t.degenerate ? -1.0 : 0.0));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double ex = t.edge[k].x(), ey = t.edge[k].y(), ez = t.edge[k].z();
+    const double cx = t.corner[k].x(), fy = row.y - t.corner[k].y(), fz = row.z - t.corner[k].z();
+    const double along_yz = fy * ey + fz * ez, inverse = t.inverse_squared_length[k];
+    const double inward_x = t.inward[k].x();
+    const double inward_yz = fy * t.inward[k].y() + fz * t.inward[k].z();
+    for (std::size_t i = 0; i < to_edges.size(); ++i) {
+      const Pair fx = PairOf(row, i) - cx;
+      const Pair along = Min(Max((fx * ex + along_yz) * inverse, Both(0.0)), Both(1.0));
+      const Pair dx = fx - along * ex, dy = fy - along * ey, dz = fz - along * ez;
+      to_edges[i] = Min(dx * dx + dy * dy + dz * dz, to_edges[i]);
+      facing[i] = Min(fx * inward_x + inward_yz, facing[i]);
     }
   }
-  if (best < kInfinity) return best;
-  const double height = from[0].dot(t.normal);
-  return height * height;
+  const double height_yz =
+      (row.y - t.corner[0].y()) * t.normal.y() + (row.z - t.corner[0].z()) * t.normal.z();
+  RowValues squared;
+  for (std::size_t i = 0; i < squared.size(); ++i) {
+    const Pair height = (PairOf(row, i) - t.corner[0].x()) * t.normal.x() + height_yz;
+    squared[i] = facing[i] < 0.0 ? to_edges[i] : height * height;
+  }
+  return squared;
 }
 
-// Of the squared distance to anything in the node: the better of the box and the slab.
-double TriangleTree::LowerBound(const Node& node, const Eigen::Vector3d& point) {
-  const double along = node.axis.dot(point);
-  const double slab = std::max({node.axis_min - along, along - node.axis_max, 0.0});
-  const Eigen::Array3d below = (node.min - point).array(), above = (point - node.max).array();
-  return std::max(slab * slab, below.max(above).max(0.0).matrix().squaredNorm());
+// The better of the box and the slab.
+TriangleTree::RowValues TriangleTree::LowerBounds(const Node& node, const Row& row) {
+  const double dy = std::max({node.min.y() - row.y, row.y - node.max.y(), 0.0});
+  const double dz = std::max({node.min.z() - row.z, row.z - node.max.z(), 0.0});
+  const double squared_yz = dy * dy + dz * dz;
+  const double along_yz = node.axis.y() * row.y + node.axis.z() * row.z;
+  RowValues bounds;
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const Pair x = PairOf(row, i);
+    const Pair dx = Max(Max(node.min.x() - x, x - node.max.x()), Both(0.0));
+    const Pair along = node.axis.x() * x + along_yz;
+    const Pair slab = Max(Max(node.axis_min - along, along - node.axis_max), Both(0.0));
+    bounds[i] = Max(dx * dx + squared_yz, slab * slab);
+  }
+  return bounds;
 }
 
 TriangleTree::Node TriangleTree::Bound(const std::vector<std::int32_t>& order, std::int32_t first,
@@ -137,36 +176,58 @@ void TriangleTree::Split(std::int32_t node, std::int32_t first, std::int32_t cou
   Split(left + 1, first + half, count - half, order, faces);
 }
 
-TriangleTree::Hit TriangleTree::Nearest(const Eigen::Vector3d& point, std::int32_t hint) const {
-  Hit best{SquaredDistance(triangles_[hint], point), hint};
+TriangleTree::Hit TriangleTree::Nearest(const Eigen::Vector3d& point) const {
+  Row row{{}, point.y(), point.z()};
+  row.x.fill(point.x());
+  return Nearest(row)[0];
+}
+
+std::array<TriangleTree::Hit, TriangleTree::kRowPoints> TriangleTree::Nearest(
+    const Row& row, std::int32_t hint) const {
+  RowValues best = SquaredDistances(triangles_[hint], row);
+  std::array<std::int32_t, kRowPoints> owner;
+  owner.fill(hint);
+  double worst = Largest(best);
+  const auto look_at = [&](std::int32_t triangle) {
+    const RowValues squared = SquaredDistances(triangles_[triangle], row);
+    if (!AnyLess(squared, best)) return;
+    for (std::size_t i = 0; i < kRowPoints; ++i) {
+      if (squared[i / 2][i % 2] < best[i / 2][i % 2]) owner[i] = triangle;
+    }
+    for (std::size_t i = 0; i < best.size(); ++i) best[i] = Min(squared[i], best[i]);
+    worst = Largest(best);
+  };
   struct Entry {
-    double lower_bound;
+    double nearest;  // smallest bound of the points that need the node, else infinity
     std::int32_t node;
+  };
+  const auto enter = [&](std::int32_t node) {
+    const RowValues bounds = LowerBounds(nodes_[node], row);
+    Pair nearest = Both(kInfinity);
+    for (std::size_t i = 0; i < best.size(); ++i) {
+      nearest = Min(bounds[i] < best[i] ? bounds[i] : Both(kInfinity), nearest);
+    }
+    return Entry{std::min(nearest[0], nearest[1]), node};
   };
   std::array<Entry, 64> stack;  // halving 2^31 faces needs fewer
   std::size_t size = 0;
-  stack[size++] = {LowerBound(nodes_[0], point), 0};
+  stack[size++] = enter(0);
   while (size > 0) {
     const Entry entry = stack[--size];
-    if (entry.lower_bound >= best.squared_distance) continue;
+    if (entry.nearest >= worst) continue;
     const Node& node = nodes_[entry.node];
     if (node.count > 0) {
-      for (std::int32_t t = node.first; t < node.first + node.count; ++t) {
-        const Triangle& triangle = triangles_[t];
-        const double height = triangle.normal.dot(point - triangle.corner[0]);
-        if (height * height >= best.squared_distance) continue;
-        const double squared = SquaredDistance(triangle, point);
-        if (squared < best.squared_distance) best = {squared, t};
-      }
+      for (std::int32_t t = node.first; t < node.first + node.count; ++t) look_at(t);
       continue;
     }
-    Entry near{LowerBound(nodes_[node.first], point), node.first};
-    Entry far{LowerBound(nodes_[node.first + 1], point), node.first + 1};
-    if (far.lower_bound < near.lower_bound) std::swap(near, far);
-    if (far.lower_bound < best.squared_distance) stack[size++] = far;
-    if (near.lower_bound < best.squared_distance) stack[size++] = near;
+    Entry near = enter(node.first), far = enter(node.first + 1);
+    if (far.nearest < near.nearest) std::swap(near, far);
+    if (far.nearest < kInfinity) stack[size++] = far;
+    if (near.nearest < kInfinity) stack[size++] = near;
   }
-  return best;
+  std::array<Hit, kRowPoints> hits;
+  for (std::size_t i = 0; i < kRowPoints; ++i) hits[i] = {best[i / 2][i % 2], owner[i]};
+  return hits;
 }
 
 }  // namespace antigrasp

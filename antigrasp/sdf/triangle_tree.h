@@ -20,9 +20,16 @@ class TriangleTree {
   // CHECKs that the mesh has faces, that indices are in range and vertices finite.
   explicit TriangleTree(const TriangleMesh& mesh);
 
-  // The nearest face. `hint` is searched first: the answer to a query close by makes it faster and
-  // changes the distance by rounding at most.
-  Hit Nearest(const Eigen::Vector3d& point, std::int32_t hint = 0) const;
+  Hit Nearest(const Eigen::Vector3d& point) const;
+
+  // The same for points that differ in x only, searched together: several times faster a point.
+  // `hint`, a face near the first point, is looked at first.
+  static constexpr int kRowPoints = 8;
+  struct Row {
+    alignas(16) std::array<double, kRowPoints> x;
+    double y, z;
+  };
+  std::array<Hit, kRowPoints> Nearest(const Row& row, std::int32_t hint = 0) const;
 
  private:
   // A face with all that the distance needs. Degenerate faces are their edges.
@@ -44,8 +51,11 @@ class TriangleTree {
 
   static Triangle Prepare(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                           const Eigen::Vector3d& c);
-  static double SquaredDistance(const Triangle& triangle, const Eigen::Vector3d& point);
-  static double LowerBound(const Node& node, const Eigen::Vector3d& point);
+  // One value for each point of the row, in pairs that every x86-64 (and ARM64) has registers for.
+  using Pair = double __attribute__((vector_size(16)));
+  using RowValues = std::array<Pair, kRowPoints / 2>;
+  static RowValues SquaredDistances(const Triangle& triangle, const Row& row);
+  static RowValues LowerBounds(const Node& node, const Row& row);  // of squared distances
   static Node Bound(const std::vector<std::int32_t>& order, std::int32_t first, std::int32_t count,
                     const std::vector<Triangle>& faces);
   void Split(std::int32_t node, std::int32_t first, std::int32_t count,
