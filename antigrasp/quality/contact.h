@@ -21,8 +21,8 @@ struct Grasp {
 };
 
 // The friction cone's tangent frame at a contact whose INWARD unit normal is d: t1 is the object's
-// +x axis projected on the tangent plane and normalised, t2 = d x t1. This is the continuum limit of
-// Dex-Net's 1000-step search; where d is parallel to x, its SVD basis vector (docs/metric.md).
+// +x axis projected on the tangent plane and normalised, t2 = d x t1. This is the continuum limit
+// of Dex-Net's 1000-step search; where d is parallel to x, its SVD basis vector (docs/metric.md).
 // Epsilon depends on the frame, because the cone is an octagon.
 std::array<Eigen::Vector3d, 2> TangentFrame(const Eigen::Vector3d& d);
 

@@ -27,8 +27,8 @@ std::string_view Name(GraspabilityStatus status);
 // The graspability of one object: lower = harder to grasp.
 struct Graspability {
   GraspabilityStatus status = GraspabilityStatus::kNotEvaluable;
-  double value = 0.0;    // discrete percentile of the robust qualities
-  double ci_low = 0.0;   // bootstrap 95 % interval over grasps
+  double value = 0.0;   // discrete percentile of the robust qualities
+  double ci_low = 0.0;  // bootstrap 95 % interval over grasps
   double ci_high = 0.0;
   double mean = 0.0;              // mean robust quality
   double fraction_nonzero = 0.0;  // share of grasps with quality > 0
@@ -52,7 +52,7 @@ std::vector<Graspability> EvaluateAll(const std::vector<TriangleMesh>& meshes,
                                       const ProgressFn& progress = nullptr);
 
 // Mean over objects with its 95 % interval (normal approximation, standard error over objects).
-// NaN values are left out.
+// NaN values are left out. The mean of nothing and the interval of fewer than two values are NaN.
 struct MeanInterval {
   double mean = 0.0;
   double half_width = 0.0;

@@ -6,14 +6,14 @@
 
 namespace antigrasp {
 
-// Every constant of the metric (docs/metric.md). Two graspabilities compare only when all are equal,
-// so all are written into every result file. Lengths in metres, angles in radians.
+// Every constant of the metric (docs/metric.md). Two graspabilities compare only when all are
+// equal, so all are written into every result file. Lengths in metres, angles in radians.
 struct MetricOptions {
   // Contact and wrench model (Dex-Net 1.0).
   double friction = 0.5;
   int cone_edges = 8;
-  double finger_radius = 0.005;   // soft finger: torsion +-pi r^2 mu
-  double torque_scale = 1000.0;   // 1 / m
+  double finger_radius = 0.005;  // soft finger: torsion +-pi r^2 mu
+  double torque_scale = 1000.0;  // 1 / m
   // Object and gripper.
   double object_min_extent = 0.040;  // smallest bounding-box extent after rescaling; 0 = as it is
   double jaw_opening = 0.05;         // widest grasp

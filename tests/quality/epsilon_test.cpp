@@ -183,6 +183,16 @@ TEST(Epsilon, IsZeroWhereTheWrenchesCannotSurroundTheOrigin) {
   EXPECT_EQ(Epsilon(CubeGrasp(), com, {0.5, 8, 0.0, 1000.0}), 0.0) << "no torsion";
 }
 
+TEST(Epsilon, IsZeroUnlessTheOriginIsDeeperThanRounding) {
+  auto contacts = CubeGrasp();
+  const double full = Epsilon(contacts, Vector3d::Zero(), {});
+  for (const double depth : {0.5e-10, 2e-10}) {
+    for (Contact& contact : contacts) contact.normal_force = depth / full;
+    const double epsilon = Epsilon(contacts, Vector3d::Zero(), {});
+    EXPECT_NEAR(epsilon, depth > 1e-10 ? depth : 0.0, 1e-18);
+  }
+}
+
 TEST(Epsilon, IsZeroForNumbersThatAreNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();

@@ -7,7 +7,9 @@
 #include <limits>
 #include <numbers>
 
+#include "antigrasp/quality/antipodal_sampler.h"
 #include "antigrasp/quality/epsilon.h"
+#include "antigrasp/quality/robust_quality.h"
 #include "tests/support/shapes.h"
 
 namespace antigrasp {
@@ -199,6 +201,25 @@ TEST(Graspability, IsTheSameForTheSameSeedAndObjectAndDiffersOtherwise) {
   ExpectSame(EvaluateGraspability(mesh, {}, 1, 5), g);
   EXPECT_NE(EvaluateGraspability(mesh, {}, 2, 5).value, g.value);
   EXPECT_NE(EvaluateGraspability(mesh, {}, 1, 6).value, g.value);
+}
+
+TEST(Graspability, EachGraspCanBeRepeatedFromTheStreamsOfItsCandidate) {
+  const TriangleMesh mesh = shapes::Box({0.04, 0.06, 0.05});
+  const MetricOptions options;
+  const Graspability g = EvaluateGraspability(mesh, options, 1, 5);
+  const TriangleMesh scaled = Transformed(mesh, g.scale, Vector3d::Zero());
+  const RayScene scene(scaled);
+  const AntipodalSampler sampler(scaled, scene, options.friction, options.jaw_opening);
+  std::size_t found = 0;
+  for (std::uint64_t candidate = 0; found < g.grasps.size(); ++candidate) {
+    RngStream grasp_rng(1, "grasp", 5, candidate), noise_rng(1, "noise", 5, candidate);
+    const auto grasp = sampler.Try(&grasp_rng);
+    if (!grasp) continue;
+    EXPECT_EQ(grasp->center, g.grasps[found].grasp.center);
+    EXPECT_EQ(RobustQuality(scene, CenterOfMass(scaled), *grasp, options, &noise_rng),
+              g.grasps[found].quality);
+    ++found;
+  }
 }
 
 TEST(EvaluateAll, GivesTheSameBitsForAnyNumberOfThreadsAndNumbersObjects) {
