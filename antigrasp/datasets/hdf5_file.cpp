@@ -61,7 +61,7 @@ std::optional<std::vector<std::string>> ReadStringsOf(const Handle& file_type, c
 
 struct Hdf5File::Impl {
   QuietHdf5Errors quiet;
-  std::filesystem::path path;
+  Hdf5Image image;  // outlives the file
   Handle file;
 
   Handle Attribute(const std::string& name) const {
@@ -72,11 +72,8 @@ struct Hdf5File::Impl {
     const bool there = H5Lexists(file.get(), name.c_str(), H5P_DEFAULT) > 0;
     return {there ? H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT) : -1, H5Dclose};
   }
-  [[noreturn]] void FailWrite() const {
-    throw RuntimeFailure("cannot write " + path.string() + ": the disk refused (full?)");
-  }
-  void Require(bool ok) const {
-    if (!ok) FailWrite();
+  static void Require(bool ok) {
+    if (!ok) throw RuntimeFailure("HDF5 cannot write: out of memory, or a text over 64 KiB");
   }
 
   // All values of a numeric attribute, converted to the native type of T.
@@ -117,20 +114,28 @@ Hdf5File::Hdf5File(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Hdf5File::~Hdf5File() = default;
 
 std::unique_ptr<Hdf5File> Hdf5File::Open(const std::filesystem::path& path) {
-  auto impl = std::unique_ptr<Impl>(new Impl{{}, path, {-1, H5Fclose}});
+  auto impl = std::unique_ptr<Impl>(new Impl{{}, {}, {-1, H5Fclose}});
   impl->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!impl->file) return nullptr;
   return std::unique_ptr<Hdf5File>(new Hdf5File(std::move(impl)));
 }
 
-std::unique_ptr<Hdf5File> Hdf5File::Create(const std::filesystem::path& path,
-                                           const std::filesystem::path& shown) {
-  auto impl = std::unique_ptr<Impl>(new Impl{{}, shown, {-1, H5Fclose}});
-  const Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  H5Pset_obj_track_times(properties.get(), false);
-  impl->file =
-      Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.get(), H5P_DEFAULT), H5Fclose);
-  impl->Require(static_cast<bool>(impl->file));
+std::unique_ptr<Hdf5File> Hdf5File::Create() {
+  constexpr std::size_t kGrowth = std::size_t{16} << 20;
+  auto impl = std::unique_ptr<Impl>(new Impl{{}, {}, {-1, H5Fclose}});
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.get(), false);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_core(access.get(), kGrowth, false);
+  // The file format of HDF5 1.10 (2016) has check sums on its metadata. In the default one a
+  // damaged byte can lead the library out of its buffers.
+  H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110);
+  // No room set aside: the end of what is used is the end of the file.
+  H5Pset_meta_block_size(access.get(), 0);
+  H5Pset_small_data_block_size(access.get(), 0);
+  impl->image.CatchFrom(access.get());
+  impl->file = Handle(H5Fcreate("memory", H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
+  Impl::Require(static_cast<bool>(impl->file));
   return std::unique_ptr<Hdf5File>(new Hdf5File(std::move(impl)));
 }
 
@@ -244,15 +249,16 @@ void Hdf5File::WriteFloats(const std::string& name, const std::vector<const floa
   H5Pset_chunk(properties.get(), rank, chunk.data());
   H5Pset_shuffle(properties.get());
   H5Pset_deflate(properties.get(), 4);
+  H5Pset_fletcher32(properties.get());  // damage is an error, not another shape
   const Handle dataset(H5Dcreate2(impl_->file.get(), name.c_str(), H5T_IEEE_F32LE, space.get(),
                                   H5P_DEFAULT, properties.get(), H5P_DEFAULT),
                        H5Dclose);
-  impl_->Require(static_cast<bool>(dataset));
+  Impl::Require(static_cast<bool>(dataset));
   for (std::size_t i = 0; i < items.size(); ++i) {
     start[0] = i;
     H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, chunk.data(), nullptr);
-    impl_->Require(H5Dwrite(dataset.get(), H5T_NATIVE_FLOAT, chunk_space.get(), space.get(),
-                            H5P_DEFAULT, items[i]) >= 0);
+    Impl::Require(H5Dwrite(dataset.get(), H5T_NATIVE_FLOAT, chunk_space.get(), space.get(),
+                           H5P_DEFAULT, items[i]) >= 0);
   }
 }
 
@@ -271,12 +277,15 @@ void Hdf5File::WriteStrings(const std::string& name, const std::vector<std::stri
   const Handle dataset(H5Dcreate2(impl_->file.get(), name.c_str(), type.get(), space.get(),
                                   H5P_DEFAULT, properties.get(), H5P_DEFAULT),
                        H5Dclose);
-  impl_->Require(dataset && H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                                     buffer.data()) >= 0);
+  Impl::Require(dataset && H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                                    buffer.data()) >= 0);
 }
 
-void Hdf5File::Close() {
-  impl_->Require(H5Fflush(impl_->file.get(), H5F_SCOPE_LOCAL) >= 0 && impl_->file.Release());
+std::string Hdf5File::Bytes() {
+  Impl::Require(H5Fflush(impl_->file.get(), H5F_SCOPE_LOCAL) >= 0);
+  const ssize_t used = H5Fget_file_image(impl_->file.get(), nullptr, 0);  // the buffer is longer
+  Impl::Require(used > 0 && impl_->file.Release() && impl_->image.data() != nullptr);
+  return {static_cast<const char*>(impl_->image.data()), static_cast<std::size_t>(used)};
 }
 
 }  // namespace antigrasp

@@ -16,9 +16,8 @@ class Hdf5File {
  public:
   // Null when the path is not a readable HDF5 file.
   static std::unique_ptr<Hdf5File> Open(const std::filesystem::path& path);
-  // Failures name `shown`, the file that the user asked for.
-  static std::unique_ptr<Hdf5File> Create(const std::filesystem::path& path,
-                                          const std::filesystem::path& shown);
+  // A new file in memory: the library never meets a full disk, which it does not survive.
+  static std::unique_ptr<Hdf5File> Create();
   ~Hdf5File();
 
   std::optional<std::string> StringAttribute(const std::string& name) const;
@@ -36,16 +35,17 @@ class Hdf5File {
   bool ReadFloats(const std::string& name, std::uint64_t item, float* values) const;
   std::optional<std::vector<std::string>> ReadStrings(const std::string& name) const;
 
-  // All writing throws RuntimeFailure when the disk refuses.
+  // All writing throws RuntimeFailure when the library refuses (out of memory).
   void WriteAttribute(const std::string& name, const std::string& value);
   void WriteAttribute(const std::string& name, std::uint64_t value);
   void WriteAttribute(const std::string& name, const std::vector<double>& values);
   void WriteAttribute(const std::string& name, double value);
-  // float32 [items.size(), item_extents...], one chunk an item, shuffled and deflated.
+  // float32 [items.size(), item_extents...], one chunk an item: shuffled, deflated, with check
+  // sums.
   void WriteFloats(const std::string& name, const std::vector<const float*>& items,
                    const std::vector<std::uint64_t>& item_extents);
   void WriteStrings(const std::string& name, const std::vector<std::string>& values);
-  void Close();  // writes what is buffered; RuntimeFailure when that fails
+  std::string Bytes();  // closes the file and gives it whole, to be written to disk
 
  private:
   struct Impl;

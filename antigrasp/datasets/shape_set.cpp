@@ -138,8 +138,7 @@ void WriteShapeSet(const std::filesystem::path& path, const ShapeSet& set) {
   const auto n = static_cast<std::uint64_t>(grid.n);
   std::vector<const float*> values;
   for (const SdfGrid& g : set.grids) values.push_back(g.values.data());
-  AtomicFile target(path);
-  const auto file = Hdf5File::Create(target.temp_path(), path);
+  const auto file = Hdf5File::Create();
   file->WriteAttribute("format", std::string(kFormat));
   file->WriteAttribute("version", kVersion);
   file->WriteAttribute("kind", set.kind);
@@ -153,8 +152,7 @@ void WriteShapeSet(const std::filesystem::path& path, const ShapeSet& set) {
   file->WriteAttribute("provenance", set.provenance);
   file->WriteFloats("/sdf", values, {n, n, n});
   file->WriteStrings("/names", set.names);
-  file->Close();
-  target.Commit();
+  WriteFileAtomic(path, file->Bytes());
 }
 
 ShapeSet ReadShapeSet(const std::filesystem::path& path) {

@@ -10,7 +10,7 @@ namespace antigrasp {
 
 // Signed-distance grids of one kind and where they came from.
 struct ShapeSet {
-  std::string kind;                // "cylinders", "prisms", "bottles", "import", "samples", "elites"
+  std::string kind;  // "cylinders", "prisms", "bottles", "import", "samples", "elites"
   std::uint64_t seed = 0;
   std::string provenance;          // one line: command, checkpoint, version
   double truncation = 0.0;         // 0: exact distances; tau: values clamped to [-tau, tau]

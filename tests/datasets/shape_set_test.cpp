@@ -167,6 +167,7 @@ TEST(ShapeSet, FileCutAnywhereIsRefused) {
   for (std::size_t part = 0; part < 16; ++part) {
     ReadError(folder.Write("cut.h5", bytes.substr(0, bytes.size() * part / 16)));
   }
+  ReadError(folder.Write("cut.h5", bytes.substr(0, bytes.size() - 1)));
 }
 
 TEST(ShapeSet, DamagedBytesNeverCrash) {
