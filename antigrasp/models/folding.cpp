@@ -125,11 +125,36 @@ struct BlurAndClearRingFunction : Function<BlurAndClearRingFunction> {
   }
 };
 
-// [a, b, 4, 4, 4] as [a, b, sz, pz, sy, py, sx, px]: tap 2 s + p links the phase p of a cell to the
-// value s cells away.
-at::Tensor SplitTaps(const at::Tensor& weight) {
-  return weight.view({weight.size(0), weight.size(1), 2, 2, 2, 2, 2, 2});
+// [a, b, 4, 4, 4] -> [a, 8 b, 2, 2, 2]: tap 2 s + p of an axis links the phase p of a cell to the
+// value s cells before it.
+at::Tensor FoldKernel(const at::Tensor& weight) {
+  return weight.view({weight.size(0), weight.size(1), 2, 2, 2, 2, 2, 2})
+      .permute({0, 1, 3, 5, 7, 2, 4, 6})
+      .reshape({weight.size(0), 8 * weight.size(1), 2, 2, 2});
 }
+
+// Gradient of conv3d(input, kernel), kernel 2, with respect to its input or its kernel.
+at::Tensor ConvGradient(const at::Tensor& grad_output, const at::Tensor& input,
+                        const at::Tensor& kernel, bool of_input) {
+  auto gradients =
+      at::convolution_backward(grad_output, input, kernel, c10::nullopt, {1, 1, 1}, {0, 0, 0},
+                               {1, 1, 1}, false, {0, 0, 0}, 1, {of_input, !of_input, false});
+  return of_input ? std::get<0>(gradients) : std::get<1>(gradients);
+}
+
+// The transpose of x -> conv3d(x, kernel): what that convolution calls the gradient of its input.
+struct TransposedConvFunction : Function<TransposedConvFunction> {
+  static at::Tensor forward(AutogradContext* ctx, const at::Tensor& x, const at::Tensor& kernel) {
+    ctx->save_for_backward({x, kernel});
+    const std::int64_t h = x.size(2) + 1;
+    const at::Tensor shape_only = at::empty({x.size(0), kernel.size(1), h, h, h}, x.options());
+    return ConvGradient(x, shape_only, kernel, true);
+  }
+  static variable_list backward(AutogradContext* ctx, variable_list grads) {
+    const variable_list saved = ctx->get_saved_variables();
+    return {at::conv3d(grads[0], saved[1]), ConvGradient(saved[0], grads[0], saved[1], false)};
+  }
+};
 
 }  // namespace
 
@@ -138,20 +163,11 @@ torch::Tensor Unfold(const torch::Tensor& folded) { return UnfoldFunction::apply
 
 torch::Tensor DownConv(const torch::Tensor& folded, const torch::Tensor& weight,
                        const torch::Tensor& bias) {
-  const at::Tensor kernel = SplitTaps(weight)
-                                .permute({0, 1, 3, 5, 7, 2, 4, 6})
-                                .reshape({weight.size(0), 8 * weight.size(1), 2, 2, 2});
-  return at::conv3d(folded, kernel, bias);
+  return at::conv3d(folded, FoldKernel(weight), bias);
 }
 
-torch::Tensor UpConv(const torch::Tensor& x, const torch::Tensor& weight,
-                     const torch::Tensor& bias) {
-  const at::Tensor kernel = SplitTaps(weight)
-                                .permute({1, 3, 5, 7, 0, 2, 4, 6})
-                                .reshape({8 * weight.size(1), weight.size(0), 2, 2, 2})
-                                .flip({2, 3, 4});
-  // The padding is a copy because oneDNN's fast weight gradient takes none on AVX2.
-  return at::conv3d(AddRing(x), kernel, bias.defined() ? bias.repeat_interleave(8) : bias);
+torch::Tensor UpConv(const torch::Tensor& x, const torch::Tensor& weight) {
+  return TransposedConvFunction::apply(x, FoldKernel(weight));
 }
 
 torch::Tensor BlurAndClearRing(const torch::Tensor& folded, bool blur) {

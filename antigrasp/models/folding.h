@@ -21,11 +21,10 @@ torch::Tensor Unfold(const torch::Tensor& folded);
 torch::Tensor DownConv(const torch::Tensor& folded, const torch::Tensor& weight,
                        const torch::Tensor& bias);
 
-// conv_transpose3d, stride 2, folded: weight [in, out, 4, 4, 4], bias [out] or undefined.
+// conv_transpose3d, stride 2, folded: weight [in, out, 4, 4, 4], no bias.
 // x [N, in, s, s, s] -> [N, 8 out, s + 1, s + 1, s + 1]. Unfolded it is the layer with padding 1;
-// the ring holds what a padding of 0 adds.
-torch::Tensor UpConv(const torch::Tensor& x, const torch::Tensor& weight,
-                     const torch::Tensor& bias = {});
+// the ring holds what a padding of 0 adds. Differentiable once.
+torch::Tensor UpConv(const torch::Tensor& x, const torch::Tensor& weight);
 
 // Smooths with [1 2 1]/4 along each axis (zero beyond the ring) if `blur`, then zeroes the ring.
 // [N, 8, 17, 17, 17].

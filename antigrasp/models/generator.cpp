@@ -86,7 +86,7 @@ torch::Tensor GeneratorImpl::ForwardFolded(const torch::Tensor& z) {
   x = Activate(1, Unfold(UpConv(x, up_weights_[0])));       // [N, 4c, 4, 4, 4]
   x = Activate(2, Unfold(UpConv(x, up_weights_[1])));       // [N, 2c, 8, 8, 8]
   x = Activate(3, Unfold(UpConv(x, up_weights_[2])));       // [N, c, 16, 16, 16]
-  x = UpConv(x, last_weight_, last_bias_);                  // [N, 8, 17, 17, 17]
+  x = UpConv(x, last_weight_) + last_bias_;                 // [N, 8, 17, 17, 17]
   return BlurAndClearRing(x, options_.output_blur).tanh();  // [N, 8, 17, 17, 17]
 }
 
