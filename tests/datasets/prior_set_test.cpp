@@ -58,7 +58,7 @@ TEST(PriorSet, VolumesAndMeshSizesAreThoseOfTheKind) {
     std::size_t low_vertices, high_vertices;
   };
   for (const Expected& e :
-       {Expected{"cylinders", 0.015, 0.08, 600, 2000}, Expected{"prisms", 0.06, 0.35, 1200, 4500},
+       {Expected{"cylinders", 0.015, 0.16, 600, 2800}, Expected{"prisms", 0.06, 0.35, 1200, 4500},
         Expected{"bottles", 0.015, 0.25, 500, 3000}}) {
     for (const SdfGrid& grid : Make(e.kind, 10, 2, 3).grids) {
       const RemeshResult result = Remesh(grid, {.check_self_intersection = false});
