@@ -31,10 +31,10 @@ void AddHelpCommand(CLI::App* app, std::string* topic) {
       about = known.empty() ? nullptr : known.front();
     }
     if (about == nullptr) throw InputError("no command " + *topic, "help", "one of antigrasp help");
-    std::fputs(
-        about->help("", topic->empty() ? CLI::AppFormatMode::Normal : CLI::AppFormatMode::All)
-            .c_str(),
-        stdout);
+    // Not help(): that hands over to the subcommand in use, which is this one.
+    const std::string name = topic->empty() ? "antigrasp" : "antigrasp " + *topic;
+    std::fputs(app->get_formatter()->make_help(about, name, CLI::AppFormatMode::Normal).c_str(),
+               stdout);
   });
 }
 

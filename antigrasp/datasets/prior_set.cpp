@@ -43,12 +43,13 @@ struct GraftRecipe {
   double least_overhang;           // how far one end of a graft's axis is out of the large part
 };
 
-constexpr double kCylinderOverhang = 0.20;
+constexpr double kCylinderOverhang = 0.16;
 constexpr double kPrismOverhang = 0.20;
 
+// Grafts are at least five cells thick on a 32^3 grid: thinner ones are neither printed nor learnt.
 GraftRecipe CylinderRecipe() {
-  return {Primitive::Shape::kCylinder, {0.22, 0.22, 0.70}, {0.28, 0.28, 0.95},
-          {0.11, 0.11, 0.50},          {0.16, 0.16, 0.85}, kCylinderOverhang};
+  return {Primitive::Shape::kCylinder, {0.30, 0.30, 0.70}, {0.40, 0.40, 0.95},
+          {0.18, 0.18, 0.45},          {0.27, 0.27, 0.75}, kCylinderOverhang};
 }
 
 GraftRecipe PrismRecipe() {
