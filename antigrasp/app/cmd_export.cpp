@@ -28,17 +28,17 @@ void Export(const ExportFlags& flags) {
   const std::vector<InputObject> objects =
       LoadObjects(flags.inputs, flags.threads, console.Phase("reading"));
   std::vector<const InputObject*> solids;
+  std::vector<std::string> refusals;
   for (const InputObject& object : objects) {
-    std::string refusal = object.ok() ? WhyNotSolid(Inspect(object.mesh)) : object.status;
-    if (!refusal.empty()) {
-      spdlog::warn("not exported: {}: {}", object.name, refusal);
-    } else {
+    const std::string refusal = object.ok() ? WhyNotSolid(Inspect(object.mesh)) : object.status;
+    if (refusal.empty()) {
       solids.push_back(&object);
+    } else {
+      refusals.push_back(object.name + ": " + refusal);
     }
   }
-  if (solids.empty()) {
-    throw InputError("no printable object", flags.inputs.front(), "at least one closed solid");
-  }
+  if (solids.empty()) throw InputError(refusals.front(), flags.inputs.front(), "a closed solid");
+  for (const std::string& refusal : refusals) spdlog::warn("not exported: {}", refusal);
   MakeFolder(flags.out);
   for (const InputObject* object : solids) {
     WriteMesh(std::filesystem::path(flags.out) / (FileNameOf(object->name) + "." + flags.format),

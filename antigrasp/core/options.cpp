@@ -204,15 +204,22 @@ void OptionTable::ApplyValue(const std::string& key, const std::string& text,
 std::string OptionTable::Dump() const {
   std::ostringstream out;
   std::string section;
+  const auto write = [&](const Option& option, const std::string& name) {
+    out << name << " = " << ValueText(option) << "  # " << option.help << "\n";
+  };
+  // Keys without a section come first: after a [section] line they would belong to it.
+  for (const Option& option : options_) {
+    if (option.key.find('.') == std::string::npos) write(option, option.key);
+  }
   for (const Option& option : options_) {
     const std::size_t dot = option.key.rfind('.');
-    const std::string head = dot == std::string::npos ? "" : option.key.substr(0, dot);
+    if (dot == std::string::npos) continue;
+    const std::string head = option.key.substr(0, dot);
     if (head != section) {
-      out << (section.empty() ? "" : "\n") << "[" << head << "]\n";
+      out << (out.tellp() == 0 ? "" : "\n") << "[" << head << "]\n";
       section = head;
     }
-    out << (dot == std::string::npos ? option.key : option.key.substr(dot + 1)) << " = "
-        << ValueText(option) << "  # " << option.help << "\n";
+    write(option, option.key.substr(dot + 1));
   }
   return out.str();
 }

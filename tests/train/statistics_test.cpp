@@ -45,7 +45,7 @@ TEST(StatisticsTable, ShowsReductionsAgainstPriorEpisodeZeroAndControl) {
   const std::string table =
       StatisticsTable({Row(-1, 0.004, 0), Row(0, 0.005, 0), Row(1, 0.002, 0)},
                       {Row(-1, 0.004, 0), Row(0, 0.005, 0), Row(1, 0.0025, 0)});
-  EXPECT_NE(table.find("0.50 +-0.00  0.40 +-0.00   0.80 +-0.00"), std::string::npos) << table;
+  EXPECT_NE(table.find("0.50 +-0.00  0.40 +-0.00  0.80 +-0.00"), std::string::npos) << table;
   EXPECT_NE(table.find("1 empty, 2 disjoint"), std::string::npos) << table;
   EXPECT_NE(table.find("control 1"), std::string::npos) << table;
 }
