@@ -151,7 +151,9 @@ TEST(Cli, ExportsSolidsInMillimetresAndLeavesTheRestOut) {
   EXPECT_NEAR(Bounds(mesh).Extent().maxCoeff(), 80.0, 1e-4);
   EXPECT_NEAR(Bounds(mesh).min.z(), 0.0, 1e-4);
   EXPECT_EQ(WhyNotSolid(Inspect(mesh)), "");
-  ExpectRefused("export " + dir + "open.ply --out " + dir + "none", "");
+  const Outcome refused = Antigrasp("export " + dir + "open.ply --out " + dir + "none");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.text.find("open.ply: open: 4 boundary edges"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
