@@ -50,7 +50,7 @@ RunResult Start(const TrainFlags& flags, RunObserver* console) {
     }
     return ResumeRun(run.root, console);
   }
-  if (flags.overwrite && run.HoldsARun()) fs::remove_all(run.root);
+  if (flags.overwrite && run.HoldsARun()) run.Remove();
   return StartRun(config, flags.out, console);
 }
 

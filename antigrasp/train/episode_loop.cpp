@@ -222,7 +222,8 @@ std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolde
 }
 
 GanTrainer MakeTrainer(const RunConfig& config) {
-  at::set_num_threads(config.threads > 0 ? config.threads : HardwareThreads());
+  const int threads = config.torch_threads > 0 ? config.torch_threads : config.threads;
+  at::set_num_threads(threads > 0 ? threads : HardwareThreads());
   const std::string expected = "a device this LibTorch offers: cpu" +
                                std::string(torch::cuda::is_available() ? ", cuda" : " only");
   try {

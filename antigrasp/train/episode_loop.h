@@ -16,7 +16,7 @@ std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolde
                                          RunObserver* observer);
 
 // Fresh networks as the configuration says, on its device. InputError when LibTorch does not offer
-// the device here. Also sets LibTorch's threads to config.threads.
+// the device here. Also sets LibTorch's threads.
 GanTrainer MakeTrainer(const RunConfig& config);
 
 }  // namespace antigrasp

@@ -32,7 +32,8 @@ void Bind(OptionTable* table, CemOptions* options);  // keys "cem.*"
 // Everything a run depends on. Saved resolved as RUN/config.toml and inside every checkpoint.
 struct RunConfig {
   std::uint64_t seed = 1;
-  int threads = 0;             // 0 = all; results are reproducible at the same number
+  int threads = 0;             // of everything but LibTorch; 0 = all; no result depends on it
+  int torch_threads = 0;       // of LibTorch; 0 = threads; training repeats at the same number
   std::string device = "cpu";  // cpu, cuda, cuda:1
   std::string prior_file;      // an SDF file instead of a synthetic set
   PriorSetOptions prior;

@@ -22,6 +22,9 @@ struct RunFolder {
   std::filesystem::path EpisodeCheckpoint(int e) const { return Episode(e) / "checkpoint.pt"; }
 
   bool HoldsARun() const { return std::filesystem::exists(Config()); }
+
+  // Deletes what a run writes and nothing else that may lie in the folder.
+  void Remove() const;
 };
 
 }  // namespace antigrasp

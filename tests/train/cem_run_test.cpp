@@ -142,6 +142,18 @@ TEST(CemRun, ReportsAFinishedRunWithoutDoingItAgain) {
   EXPECT_EQ(StatisticsToCsv(again.stages), StatisticsToCsv(first.stages));
 }
 
+TEST(RunFolder, RemovesARunAndNothingElse) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  RunConfig config = Tiny();
+  config.cem.episodes = 0;
+  StartRun(config, folder / "run", &observer);
+  WriteFileAtomic(folder / "run/thesis.tex", "years of work");
+  RunFolder{folder / "run"}.Remove();
+  EXPECT_EQ(FilesIn(folder / "run").size(), 1U);
+  EXPECT_EQ(ReadFile(folder / "run/thesis.tex"), "years of work");
+}
+
 TEST(CemRun, RefusesAFolderThatHoldsARunAndADeviceThatIsNotThere) {
   const TempFolder folder;
   StoppingObserver observer;
