@@ -43,7 +43,7 @@ RunConfig ReadConfig(const TrainFlags& flags) {
 RunResult Start(const TrainFlags& flags, RunObserver* console) {
   const RunConfig config = ReadConfig(flags);
   const RunFolder run{flags.out};
-  if (flags.or_resume && run.HoldsARun()) {
+  if (flags.or_resume && !flags.overwrite && run.HoldsARun()) {
     if (ToToml(ConfigOfRun(run.root)) != ToToml(config)) {
       throw InputError("the run in " + flags.out + " was started with other settings",
                        run.Config().string(), "the same settings, --overwrite or another --out");

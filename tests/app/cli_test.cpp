@@ -175,6 +175,7 @@ TEST(Cli, ARunCanBeKilledResumedSampledAndExported) {
     }
   }
   ExpectRefused(start + "whole", "a run is already there");
+  EXPECT_EQ(Antigrasp(start + "parts --or-resume --overwrite --set cem.episodes=0").code, 0);
   const Outcome again = Antigrasp(start + "whole --or-resume");
   EXPECT_EQ(again.code, 0);
   EXPECT_NE(again.text.find("control 2"), std::string::npos) << again.text;
