@@ -17,12 +17,6 @@
 namespace antigrasp {
 namespace {
 
-const StageStatistics* FindStage(const std::vector<StageStatistics>& rows, int stage) {
-  const auto found = std::find_if(rows.begin(), rows.end(),
-                                  [&](const StageStatistics& row) { return row.stage == stage; });
-  return found == rows.end() ? nullptr : &*found;
-}
-
 std::string KappaText(const StageStatistics& row, const std::vector<StageStatistics>& rows) {
   const StageStatistics* prior = FindStage(rows, -1);
   if (row.stage < 0 || prior == nullptr) return "";

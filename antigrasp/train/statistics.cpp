@@ -1,5 +1,6 @@
 #include "antigrasp/train/statistics.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -98,14 +99,14 @@ std::string Aligned(const std::vector<std::vector<std::string>>& rows) {
   return out.str();
 }
 
+}  // namespace
+
 const StageStatistics* FindStage(const std::vector<StageStatistics>& rows, int stage) {
   for (const StageStatistics& row : rows) {
     if (row.stage == stage) return &row;
   }
   return nullptr;
 }
-
-}  // namespace
 
 MeanInterval Ratio(const MeanInterval& value, const MeanInterval& reference) {
   MeanInterval ratio{.mean = value.mean / reference.mean, .half_width = 0, .count = value.count};

@@ -27,6 +27,9 @@ struct StageStatistics {
   int rejected() const { return samples - by_status[0]; }
 };
 
+// The row of a stage; nullptr when it is not there.
+const StageStatistics* FindStage(const std::vector<StageStatistics>& rows, int stage);
+
 // A mean divided by a reference mean, with the 95 % interval of the ratio (delta method for two
 // independent means). This is kappa with c = 1 / reference (paper VI).
 MeanInterval Ratio(const MeanInterval& value, const MeanInterval& reference);
