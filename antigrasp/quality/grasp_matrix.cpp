@@ -7,13 +7,26 @@
 
 namespace antigrasp {
 
+double TorsionLimit(const WrenchModel& model) {
+  switch (model.torsion) {
+    case Torsion::kNone:
+      return 0.0;
+    case Torsion::kDexNet:
+      return std::numbers::pi * model.finger_radius * model.finger_radius * model.friction;
+    case Torsion::kUniformPressure:
+      return 2.0 / 3.0 * model.finger_radius * model.friction;
+  }
+  AG_CHECK(false, "unknown torsion model");
+}
+
 Eigen::Matrix<double, 6, Eigen::Dynamic> GraspMatrix(const std::array<Contact, 2>& contacts,
                                                      const Eigen::Vector3d& com,
                                                      const WrenchModel& model,
                                                      const std::optional<TangentFrames>& frames) {
   const int edges = model.cone_edges;
   AG_CHECK(edges >= 3, "a friction cone needs at least 3 edges");
-  Eigen::Matrix<double, 6, Eigen::Dynamic> wrenches(6, 2 * edges + 4);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> wrenches(
+      6, 2 * edges + (model.torsion == Torsion::kNone ? 0 : 4));
   for (int i = 0; i < 2; ++i) {
     const Contact& contact = contacts[static_cast<std::size_t>(i)];
     const Eigen::Vector3d d = -contact.normal;
@@ -26,9 +39,9 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> GraspMatrix(const std::array<Contact, 2
           (d + model.friction * (std::cos(angle) * t1 + std::sin(angle) * t2));
       wrenches.col(i * edges + j) << force, model.torque_scale * arm.cross(force);
     }
-    // Dex-Net's torsion: radius squared, no force part, both signs.
-    const double torsion = std::numbers::pi * model.finger_radius * model.finger_radius *
-                           model.friction * model.torque_scale * contact.normal_force;
+    if (model.torsion == Torsion::kNone) continue;
+    // Both signs; no force part, as in Dex-Net: the contact may twist without pressing.
+    const double torsion = TorsionLimit(model) * model.torque_scale * contact.normal_force;
     wrenches.col(2 * edges + i) << Eigen::Vector3d::Zero(), torsion * d;
     wrenches.col(2 * edges + 2 + i) << Eigen::Vector3d::Zero(), -torsion * d;
   }

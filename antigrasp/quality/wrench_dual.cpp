@@ -14,7 +14,7 @@ bool Spans(const std::array<Contact, 2>& contacts, const Vector3d& com, const Wr
   double sum = com.sum() + model.friction + model.finger_radius + model.torque_scale;
   for (const Contact& c : contacts) sum += c.point.sum() + c.normal.sum() + c.normal_force;
   return std::isfinite(sum) && contacts[0].normal_force > 0.0 && contacts[1].normal_force > 0.0 &&
-         model.friction > 0.0 && model.finger_radius > 0.0 && model.torque_scale > 0.0 &&
+         model.friction > 0.0 && TorsionLimit(model) > 0.0 && model.torque_scale > 0.0 &&
          (contacts[0].point - contacts[1].point).norm() > 0.0;
 }
 
@@ -80,8 +80,7 @@ std::optional<WrenchDual> MakeWrenchDual(const std::array<Contact, 2>& contacts,
   for (std::size_t i = 0; i < 2; ++i) {
     map.inward[i] = -contacts[i].normal;
     map.along[i] = map.inward[i].dot(map.line);
-    bound[i] = map.length / (std::numbers::pi * model.finger_radius * model.finger_radius *
-                             model.friction * contacts[i].normal_force);
+    bound[i] = map.length / (TorsionLimit(model) * contacts[i].normal_force);
   }
   map.base = std::abs(map.along[0]) >= std::abs(map.along[1]) ? 0 : 1;
   if (std::abs(map.along[map.base]) < 1e-14) return std::nullopt;  // no torsion about the line

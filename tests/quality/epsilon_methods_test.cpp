@@ -101,5 +101,16 @@ TEST(EpsilonMethods, EveryFacetOfTheHullAgreesOnAxisAlignedGrasps) {
   EXPECT_GT(positive, 10);
 }
 
+TEST(EpsilonMethods, EveryFacetOfTheHullAgreesUnderUniformPressure) {
+  int positive = 0;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    RngStream rng(16, "facets", i);
+    RandomGrasp grasp = DrawRandomGrasp(1.2, i % 2 == 0 ? 3 : 4, &rng);
+    grasp.model.torsion = Torsion::kUniformPressure;
+    ExpectFacetsAgree(grasp, &positive, "uniform pressure");
+  }
+  EXPECT_GT(positive, 50);
+}
+
 }  // namespace
 }  // namespace antigrasp

@@ -183,6 +183,39 @@ TEST(Epsilon, IsZeroWhereTheWrenchesCannotSurroundTheOrigin) {
   EXPECT_EQ(Epsilon(CubeGrasp(), com, {0.5, 8, 0.0, 1000.0}), 0.0) << "no torsion";
 }
 
+TEST(Epsilon, TwoHardFingersNeverHoldTheObjectAgainstATurnAboutTheirLine) {
+  WrenchModel model;
+  model.torsion = Torsion::kNone;
+  EXPECT_EQ(Epsilon(CubeGrasp(), Vector3d::Zero(), model), 0.0);
+  RngStream rng(15, "hard");
+  for (int i = 0; i < 100; ++i) {
+    RandomGrasp grasp = DrawRandomGrasp(1.0, 8, &rng);
+    grasp.model.torsion = Torsion::kNone;
+    EXPECT_EQ(EpsilonOf(grasp), 0.0);
+    // The torque about the line vanishes in every column, which is why.
+    const Vector3d line = grasp.contacts[1].point - grasp.contacts[0].point;
+    const auto wrenches = GraspMatrix(grasp.contacts, grasp.contacts[0].point, grasp.model);
+    ASSERT_EQ(wrenches.cols(), 16);
+    EXPECT_LT((line.transpose() * wrenches.bottomRows<3>()).norm(), 1e-14 * wrenches.norm());
+  }
+}
+
+TEST(Epsilon, UniformPressureTurnsHarderThanDexNetsTorsionByTheFormulas) {
+  // 2/3 r mu against pi r^2 mu: at r = 5 mm the first is 2 / (3 pi 0.005) = 42.4 times the second.
+  WrenchModel model;
+  const double dexnet = TorsionLimit(model);
+  EXPECT_NEAR(dexnet, std::numbers::pi * 0.005 * 0.005 * 0.5, 1e-19);
+  model.torsion = Torsion::kUniformPressure;
+  EXPECT_NEAR(TorsionLimit(model), 0.005 / 3.0, 1e-18);
+  EXPECT_NEAR(TorsionLimit(model) / dexnet, 2.0 / (3.0 * std::numbers::pi * 0.005), 1e-9);
+  // The nearest facet's normal pushes one contact sideways by l, through an octagon's side (c l),
+  // the other not at all (torque l / 20 about z), both along the line by c l and twists by c l / T.
+  const double c = 0.5 * std::cos(std::numbers::pi / 8.0);
+  const double twist = 1000.0 * TorsionLimit(model);
+  EXPECT_NEAR(Epsilon(CubeGrasp(), Vector3d::Zero(), model),
+              c / std::sqrt(1.0 + 1.0 / 400.0 + c * c + c * c / (twist * twist)), 1e-12);
+}
+
 TEST(Epsilon, IsZeroUnlessTheOriginIsDeeperThanRounding) {
   auto contacts = CubeGrasp();
   const double full = Epsilon(contacts, Vector3d::Zero(), {});
