@@ -3,113 +3,116 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace antigrasp {
 namespace {
 
-constexpr int kMaxEdges = 16;
-// Nearer to the pyramid's side than this the polygons grow so long that the quadratic form below
-// would lose digits; the general method has no such limit.
-constexpr double kInside = 1e-3;
+using Directions = std::array<std::array<double, kPyramidLanes>, 2>;  // cosines, sines
 
-// One polygon of C in arrays, so that the loops over it vectorise.
-struct Polygon {
-  int size = 0;
-  std::array<std::array<double, kMaxEdges>, 6> y;
-  std::array<double, kMaxEdges> h, offset, norm2;
-};
-
-// Where the ray from the apex along each edge direction meets g = 0.
-Polygon CutPolygon(const DualPoint& apex, const std::vector<DualPoint>& edges) {
-  Polygon polygon;
-  polygon.size = static_cast<int>(edges.size());
-  for (std::size_t j = 0; j < edges.size(); ++j) {
-    const double reach = apex.g / -edges[j].g;
-    double norm2 = 0.0;
-    for (std::size_t k = 0; k < 6; ++k) {
-      const double y = apex.y[static_cast<int>(k)] + reach * edges[j].y[static_cast<int>(k)];
-      polygon.y[k][j] = y;
-      norm2 += y * y;
-    }
-    polygon.h[j] = apex.h + reach * edges[j].h;
-    polygon.offset[j] = apex.offset + reach * edges[j].offset;
-    polygon.norm2[j] = norm2;
+// Directions of the polar pyramid's edges; short of 8 the last is repeated, which adds vertices
+// where one already is and sides without length.
+Directions PyramidDirections(int cone_edges) {
+  Directions directions;
+  for (int lane = 0; lane < kPyramidLanes; ++lane) {
+    const double angle = (2 * std::min(lane, cone_edges - 1) + 1) * std::numbers::pi / cone_edges;
+    directions[0][static_cast<std::size_t>(lane)] = std::cos(angle);
+    directions[1][static_cast<std::size_t>(lane)] = std::sin(angle);
   }
-  return polygon;
+  return directions;
 }
 
-// Largest |y|^2 where the edges from vertex i of `from` to every vertex of `to` cross the cut.
-double MaxOverCut(const Polygon& from, std::size_t i, const Polygon& to, const WrenchDual::Cut& cut,
-                  double kernel2) {
-  std::array<double, kMaxEdges> norm2{};
-  const double na = from.norm2[i], ha = from.h[i], oa = from.offset[i];
-  const auto size = static_cast<std::size_t>(to.size);
-  for (std::size_t k = 0; k < size; ++k) {
-    double dot = 0.0;
-    for (std::size_t d = 0; d < 6; ++d) dot += from.y[d][i] * to.y[d][k];
-    const bool crosses = (ha < cut.h) != (to.h[k] < cut.h);
-    const double t = (cut.h - ha) / (to.h[k] - ha);
-    const double u = cut.u - (oa + t * (to.offset[k] - oa));
-    const double value = (1.0 - t) * (1.0 - t) * na + 2.0 * t * (1.0 - t) * dot +
-                         t * t * to.norm2[k] + u * u * kernel2;
-    norm2[k] = crosses ? value : 0.0;
-  }
-  return *std::max_element(norm2.begin(), norm2.begin() + to.size);
+const Directions& DirectionsFor(int cone_edges) {
+  static const auto table = [] {
+    std::array<Directions, kPyramidLanes + 1> all;
+    for (int edges = 3; edges <= kPyramidLanes; ++edges) {
+      all[static_cast<std::size_t>(edges)] = PyramidDirections(edges);
+    }
+    return all;
+  }();
+  return table[static_cast<std::size_t>(cone_edges)];
 }
 
-// The same over the polygon's own sides.
-double MaxOverSides(const Polygon& polygon, const WrenchDual::Cut& cut, double kernel2) {
-  double best = 0.0;
-  const auto size = static_cast<std::size_t>(polygon.size);
-  for (std::size_t i = 0; i < size; ++i) {
-    const std::size_t k = i + 1 < size ? i + 1 : 0;
-    if ((polygon.h[i] < cut.h) == (polygon.h[k] < cut.h)) continue;
-    const double t = (cut.h - polygon.h[i]) / (polygon.h[k] - polygon.h[i]);
-    const double u = cut.u - (polygon.offset[i] + t * (polygon.offset[k] - polygon.offset[i]));
-    double value = u * u * kernel2;
-    for (std::size_t d = 0; d < 6; ++d) {
-      const double y = polygon.y[d][i] + t * (polygon.y[d][k] - polygon.y[d][i]);
-      value += y * y;
-    }
-    best = std::max(best, value);
+void Copy(const Eigen::Vector3d& from, double* to) { std::copy_n(from.data(), 3, to); }
+
+PyramidInput ToPyramidInput(const DualMap& map) {
+  PyramidInput input;
+  const Directions& directions = DirectionsFor(map.cone_edges);
+  std::copy_n(directions[0].data(), kPyramidLanes, input.cosine);
+  std::copy_n(directions[1].data(), kPyramidLanes, input.sine);
+  input.inset = map.inset;
+  for (std::size_t i = 0; i < 2; ++i) {
+    Copy(map.inward[i], input.inward[i]);
+    Copy(map.frames[i][0], input.t1[i]);
+    Copy(map.frames[i][1], input.t2[i]);
+    Copy(map.apex[i], input.apex[i]);
+    input.along[i] = map.along[i];
   }
-  return best;
+  Copy(map.line, input.line);
+  Copy(map.arm, input.arm);
+  Copy(map.kernel_force, input.kernel_force);
+  input.length = map.length;
+  input.torque_scale = map.torque_scale;
+  input.kernel2 = map.kernel2;
+  input.base = static_cast<int>(map.base);
+  input.a = map.a;
+  input.b = map.b;
+  input.e = map.e;
+  return input;
+}
+
+PyramidKernel KernelOf(SimdLevel level) {
+  switch (level) {
+    case SimdLevel::kAvx512:
+      return MaxNorm2PyramidAvx512;
+    case SimdLevel::kAvx2:
+      return MaxNorm2PyramidAvx2;
+    case SimdLevel::kBaseline:
+      return MaxNorm2PyramidBaseline;
+  }
+  return MaxNorm2PyramidBaseline;
+}
+
+std::optional<double> Run(const DualMap& map, PyramidKernel kernel) {
+  if (map.cone_edges > kPyramidLanes) return std::nullopt;
+  const double norm2 = kernel(ToPyramidInput(map));
+  if (!(norm2 >= 0.0)) return std::nullopt;
+  return norm2;
 }
 
 }  // namespace
 
-bool InClosedFormDomain(const WrenchDual& dual) {
-  if (!(dual.apex.g > 0.0)) return false;
-  for (const auto& edges : dual.edges) {
-    if (edges.size() > kMaxEdges) return false;
-    for (const DualPoint& edge : edges) {
-      if (!(edge.g < -kInside)) return false;
-    }
+const char* Name(SimdLevel level) {
+  switch (level) {
+    case SimdLevel::kAvx512:
+      return "avx512";
+    case SimdLevel::kAvx2:
+      return "avx2";
+    case SimdLevel::kBaseline:
+      return "baseline";
   }
-  return true;
+  return "unknown";
 }
 
-double MaxNorm2ClosedForm(const WrenchDual& dual) {
-  const Polygon first = CutPolygon(dual.apex, dual.edges[0]);
-  const Polygon second = CutPolygon(dual.apex, dual.edges[1]);
-  double best = 0.0;
-  double low = first.h[0], high = first.h[0];
-  for (const Polygon* polygon : {&first, &second}) {
-    for (std::size_t j = 0; j < static_cast<std::size_t>(polygon->size); ++j) {
-      best = std::max(best, dual.Norm2Over(polygon->norm2[j], polygon->h[j], polygon->offset[j]));
-      low = std::min(low, polygon->h[j]);
-      high = std::max(high, polygon->h[j]);
-    }
-  }
-  for (const WrenchDual::Cut& cut : dual.Cuts()) {
-    if (cut.h < low || cut.h > high) continue;  // the usual case: torsion binds on one contact only
-    for (std::size_t j = 0; j < static_cast<std::size_t>(first.size); ++j) {
-      best = std::max(best, MaxOverCut(first, j, second, cut, dual.kernel2));
-    }
-    best = std::max(best, MaxOverSides(first, cut, dual.kernel2));
-    best = std::max(best, MaxOverSides(second, cut, dual.kernel2));
-  }
-  return best;
+const std::vector<SimdLevel>& SupportedSimdLevels() {
+  static const std::vector<SimdLevel> levels = [] {
+    std::vector<SimdLevel> found{SimdLevel::kBaseline};
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2")) found.push_back(SimdLevel::kAvx2);
+    if (__builtin_cpu_supports("avx512f")) found.push_back(SimdLevel::kAvx512);
+#endif
+    return found;
+  }();
+  return levels;
+}
+
+std::optional<double> MaxNorm2ClosedForm(const DualMap& map) {
+  static const PyramidKernel kernel = KernelOf(SupportedSimdLevels().back());
+  return Run(map, kernel);
+}
+
+std::optional<double> MaxNorm2ClosedForm(const DualMap& map, SimdLevel level) {
+  return Run(map, KernelOf(level));
 }
 
 }  // namespace antigrasp

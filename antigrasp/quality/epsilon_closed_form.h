@@ -1,14 +1,22 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
+#include "antigrasp/quality/pyramid_kernel.h"
 #include "antigrasp/quality/wrench_dual.h"
 
 namespace antigrasp {
 
-// True when each contact lies well inside the other's friction pyramid. Then C is the join of two
-// polygons: its vertices are theirs, its edges are theirs and one from each vertex to each.
-bool InClosedFormDomain(const WrenchDual& dual);
+// The instruction sets the closed form is compiled for. All give the same bits.
+enum class SimdLevel { kBaseline, kAvx2, kAvx512 };
+const char* Name(SimdLevel level);
+// Those this processor can run, slowest first; the last one is used.
+const std::vector<SimdLevel>& SupportedSimdLevels();
 
-// max |y|^2 over Q there. About 1 us, no heap.
-double MaxNorm2ClosedForm(const WrenchDual& dual);
+// max |y|^2 over Q where each contact lies well inside the other's friction pyramid, which has at
+// most 8 edges; nullopt elsewhere. No heap. Where the time of one evaluation goes: bench/compare.
+std::optional<double> MaxNorm2ClosedForm(const DualMap& map);
+std::optional<double> MaxNorm2ClosedForm(const DualMap& map, SimdLevel level);
 
 }  // namespace antigrasp

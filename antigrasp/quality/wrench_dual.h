@@ -29,6 +29,32 @@ struct DualPoint {
   double t = 0.0;       // homogeneous: 1 for a point, 0 for a direction
 };
 
+// The linear maps behind those numbers, one grasp's.
+struct DualMap {
+  Eigen::Vector3d line;  // D
+  double length;
+  double torque_scale;
+  Eigen::Vector3d arm;           // r_1
+  Eigen::Vector3d kernel_force;  // force part of the kernel direction
+  double kernel2;                // its squared length
+  TangentFrames frames;
+  int cone_edges;
+  double inset;                           // friction * cos(pi / cone_edges)
+  std::array<Eigen::Vector3d, 2> inward;  // d_i
+  std::array<Eigen::Vector3d, 2> apex;    // d_i / m_i
+  std::array<double, 2> along;            // d_i . D
+  std::size_t base;  // the contact whose torsion bounds u directly: larger |d_i . D|
+  double a, b, e;    // torsion bounds
+
+  DualPoint At(const Eigen::Vector3d& p1, const Eigen::Vector3d& p2, double t) const;
+};
+
+// nullopt when the wrenches cannot span (a contact without force, no friction, no torsion,
+// coincident contacts, numbers that are not finite): epsilon is 0.
+std::optional<DualMap> MakeDualMap(const std::array<Contact, 2>& contacts,
+                                   const Eigen::Vector3d& com, const WrenchModel& model,
+                                   const TangentFrames& frames);
+
 struct WrenchDual {
   DualPoint apex;                               // (d_1 / m_1, d_2 / m_2)
   std::array<std::vector<DualPoint>, 2> edges;  // directions (c_1j, 0) and (0, c_2j), in order
@@ -47,10 +73,6 @@ struct WrenchDual {
   double Norm2Over(double y_norm2, double h, double offset) const;
 };
 
-// nullopt when the wrenches cannot span (a contact without force, no friction, no torsion,
-// coincident contacts, numbers that are not finite): epsilon is 0.
-std::optional<WrenchDual> MakeWrenchDual(const std::array<Contact, 2>& contacts,
-                                         const Eigen::Vector3d& com, const WrenchModel& model,
-                                         const TangentFrames& frames);
+WrenchDual MakeWrenchDual(const DualMap& map);
 
 }  // namespace antigrasp

@@ -1,0 +1,3 @@
+// Compiled with the flags of its instruction set (CMakeLists.txt).
+#define MAX_NORM2_PYRAMID MaxNorm2PyramidBaseline
+#include "antigrasp/quality/pyramid_kernel.inc"
