@@ -32,9 +32,11 @@ struct ScoredObject {
   }
 };
 
-std::string ScoresCsv(const std::vector<ScoredObject>& scored) {
+// `egad` adds EGAD's own score of the same graspability as the last column.
+std::string ScoresCsv(const std::vector<ScoredObject>& scored, bool egad) {
   std::string csv =
-      "object,status,num_grasps,graspability,ci_low,ci_high,mean,fraction_nonzero,seconds\n";
+      "object,status,num_grasps,graspability,ci_low,ci_high,mean,fraction_nonzero,seconds";
+  csv += egad ? ",egad\n" : "\n";
   for (const ScoredObject& item : scored) {
     const Graspability& score = item.score;
     csv += CsvField(item.object.name) + "," + CsvField(item.Status()) + "," +
@@ -45,8 +47,10 @@ std::string ScoresCsv(const std::vector<ScoredObject>& scored) {
       csv += "," + (evaluated ? FormatDouble(value) : std::string());
     }
     char seconds[32];
-    std::snprintf(seconds, sizeof seconds, ",%.4f\n", score.seconds);
+    std::snprintf(seconds, sizeof seconds, ",%.4f", score.seconds);
     csv += seconds;
+    if (egad) csv += "," + (evaluated ? FormatDouble(EgadScore(score.value)) : std::string());
+    csv += "\n";
   }
   return csv;
 }
@@ -92,7 +96,9 @@ std::vector<ScoredObject> ScoreAll(const EvaluateFlags& flags, const MetricOptio
   return scored;
 }
 
-void Evaluate(const EvaluateFlags& flags, const MetricOptions& metric) {
+void Evaluate(const EvaluateFlags& flags, const MetricFlags& metric_flags) {
+  const MetricOptions metric = metric_flags.Resolve();
+  const bool egad = metric_flags.preset() == "egad";
   for (const std::string& out : {flags.out, flags.grasps}) {
     if (!out.empty()) const AtomicFile probe(out);  // refuses an unwritable target before the work
   }
@@ -107,9 +113,9 @@ void Evaluate(const EvaluateFlags& flags, const MetricOptions& metric) {
   }
   if (!flags.grasps.empty()) WriteFileAtomic(flags.grasps, GraspsCsv(scored));
   if (flags.out.empty()) {
-    std::printf("%s", ScoresCsv(scored).c_str());
+    std::printf("%s", ScoresCsv(scored, egad).c_str());
   } else {
-    WriteFileAtomic(flags.out, ScoresCsv(scored));
+    WriteFileAtomic(flags.out, ScoresCsv(scored, egad));
     MetricOptions copy = metric;
     OptionTable table;
     Bind(&table, &copy);
@@ -136,7 +142,7 @@ void AddEvaluateCommand(CLI::App* app) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   const auto metric = std::make_shared<MetricFlags>(command);
-  command->callback([flags, metric] { Evaluate(*flags, metric->Resolve()); });
+  command->callback([flags, metric] { Evaluate(*flags, *metric); });
 }
 
 }  // namespace antigrasp

@@ -1,14 +1,25 @@
 #include "antigrasp/app/flags.h"
 
 #include <algorithm>
-#include <map>
 
 namespace antigrasp {
+namespace {
 
-struct MetricFlags::State {
-  std::string noise;
-  std::map<std::string, std::string> given;  // key -> text
-};
+std::shared_ptr<std::string> AddName(CLI::App* command, const std::string& flag,
+                                     const std::string& value, const std::string& help) {
+  const auto name = std::make_shared<std::string>(value);
+  command->add_option(flag, *name, help)->type_name("NAME")->capture_default_str()->group("Metric");
+  return name;
+}
+
+OptionFlags MetricOptionFlags(CLI::App* command) {
+  MetricOptions defaults;
+  OptionTable table;
+  Bind(&table, &defaults);
+  return {command, table, "Metric"};
+}
+
+}  // namespace
 
 std::string FlagOf(const std::string& key) {
   std::string flag = "--" + key.substr(key.rfind('.') + 1);
@@ -16,32 +27,42 @@ std::string FlagOf(const std::string& key) {
   return flag;
 }
 
-MetricFlags::MetricFlags(CLI::App* command) : state_(std::make_shared<State>()) {
-  command->add_option("--noise", state_->noise, "noise preset: default, dexnet or none")
-      ->type_name("PRESET")
-      ->group("Metric");
-  MetricOptions defaults;
-  OptionTable table;
-  Bind(&table, &defaults);
+OptionFlags::OptionFlags(CLI::App* command, const OptionTable& table, const std::string& group) {
   for (const Option& option : table.options()) {
+    const auto given = given_;
+    const std::string& key = option.key;
+    if (std::holds_alternative<bool*>(option.target)) {
+      command
+          ->add_flag_callback(
+              FlagOf(key), [given, key] { (*given)[key] = "true"; }, option.help)
+          ->group(group);
+      continue;
+    }
     command
         ->add_option_function<std::string>(
-            FlagOf(option.key),
-            [state = state_, key = option.key](const std::string& text) {
-              state->given[key] = text;
-            },
+            FlagOf(key), [given, key](const std::string& text) { (*given)[key] = text; },
             option.help)
         ->type_name(ValueText(option))
-        ->group("Metric");
+        ->group(group);
   }
 }
 
+void OptionFlags::Apply(OptionTable* table) const {
+  for (const auto& [key, text] : *given_) table->ApplyValue(key, text, FlagOf(key));
+}
+
+MetricFlags::MetricFlags(CLI::App* command)
+    : preset_(AddName(command, "--preset", "default", "all constants: default, dexnet or egad")),
+      noise_(AddName(command, "--noise", "", "noise alone: default, dexnet or none")),
+      options_(MetricOptionFlags(command)) {}
+
 MetricOptions MetricFlags::Resolve() const {
   MetricOptions options;
-  if (!state_->noise.empty()) ApplyNoisePreset(state_->noise, &options);
+  ApplyMetricPreset(*preset_, &options);
+  if (!noise_->empty()) ApplyNoisePreset(*noise_, &options);
   OptionTable table;
   Bind(&table, &options);
-  for (const auto& [key, text] : state_->given) table.ApplyValue(key, text, FlagOf(key));
+  options_.Apply(&table);
   return options;
 }
 

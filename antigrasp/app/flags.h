@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -8,17 +9,32 @@
 
 namespace antigrasp {
 
-// The metric's constants as flags of a command: --friction, --num-draws, ... (one per "metric.*"
-// option, ranges and help from the same table) and --noise PRESET. Flags given win over the preset.
+// The options of a table as flags of a command: "metric.num_draws" is --num-draws, help and default
+// from the table; a boolean needs no value.
+class OptionFlags {
+ public:
+  OptionFlags(CLI::App* command, const OptionTable& table, const std::string& group);
+  // Call after parsing: what was given, into a table with the same keys. InputError for a value out
+  // of range.
+  void Apply(OptionTable* table) const;
+
+ private:
+  using Given = std::map<std::string, std::string>;  // key -> text
+  std::shared_ptr<Given> given_ = std::make_shared<Given>();
+};
+
+// The metric's constants as flags of a command: one per "metric.*" option, --preset NAME and
+// --noise PRESET. Single constants win over --noise, --noise over --preset.
 class MetricFlags {
  public:
   explicit MetricFlags(CLI::App* command);
-  // Call after parsing. InputError for a value out of range.
+  // Both after parsing.
   MetricOptions Resolve() const;
+  const std::string& preset() const { return *preset_; }
 
  private:
-  struct State;
-  std::shared_ptr<State> state_;
+  std::shared_ptr<std::string> preset_, noise_;
+  OptionFlags options_;
 };
 
 // "metric.num_grasps" -> "--num-grasps".

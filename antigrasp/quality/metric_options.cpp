@@ -1,8 +1,41 @@
 #include "antigrasp/quality/metric_options.h"
 
+#include <algorithm>
+
 #include "antigrasp/core/error.h"
 
 namespace antigrasp {
+
+void ApplyMetricPreset(const std::string& name, MetricOptions* options) {
+  MetricOptions preset;
+  if (name == "dexnet" || name == "egad") {
+    preset.friction = 0.5;
+    preset.cone_edges = 8;
+    preset.finger_radius = 0.005;  // neither configuration sets it: the code's own default
+    preset.object_min_extent = 0.040;
+    preset.jaw_opening = 0.05;  // gripper yumi_metal_spline
+    preset.percentile = 75.0;   // of the paper and of EGAD; Dex-Net ranks single grasps
+  }
+  if (name == "dexnet") {
+    preset.torque_scale = 1000.0;
+    preset.num_grasps = 25;
+    preset.num_draws = 25;
+    ApplyNoisePreset("dexnet", &preset);
+  } else if (name == "egad") {
+    preset.torque_scale = 100.0;
+    preset.num_grasps = 100;
+    preset.num_draws = 1;
+    ApplyNoisePreset("none", &preset);
+  } else if (name != "default") {
+    throw InputError("metric preset '" + name + "'", "metric", "one of default, dexnet, egad");
+  }
+  *options = preset;
+}
+
+double EgadScore(double graspability) {
+  constexpr double kHard = 0.0005, kEasy = 0.004;
+  return 100.0 * ((std::clamp(graspability, kHard, kEasy) - kHard) / (kEasy - kHard));
+}
 
 void ApplyNoisePreset(const std::string& name, MetricOptions* options) {
   struct Noise {

@@ -31,6 +31,15 @@ struct MetricOptions {
   int bootstrap = 1000;  // resamples behind the 95 % interval
 };
 
+// Sets every constant to "default" (above), "dexnet" or "egad". Dex-Net: test/config.yaml of
+// BerkeleyAutomation/dex-net cccf933, 25 grasps and its own noise. EGAD (Morrison et al. 2020):
+// scripts/cfg of dougsm/egad, torque scale 100 / m and no noise, so one draw is all draws.
+void ApplyMetricPreset(const std::string& name, MetricOptions* options);
+
+// EGAD's score of a graspability under its preset: 0 (epsilon up to 0.0005, hard to grasp) to 100
+// (0.004 and above, easy), linear between. EGAD cuts it to a whole number.
+double EgadScore(double graspability);
+
 // Sets the noise to "default" (above), "dexnet" (0.01, 0.01, 0.005, 0.001, 0.1) or "none".
 void ApplyNoisePreset(const std::string& name, MetricOptions* options);
 

@@ -41,6 +41,61 @@ TEST(MetricOptions, EveryFieldSurvivesTheConfigurationFile) {
   ExpectEqual(read, Unusual());
 }
 
+TEST(MetricPreset, SetsEveryConstantWhateverWasThere) {
+  for (const char* name : {"default", "dexnet", "egad"}) {
+    MetricOptions a, b = Unusual();
+    ApplyMetricPreset(name, &a);
+    ApplyMetricPreset(name, &b);
+    ExpectEqual(a, b);
+  }
+  MetricOptions unchanged = Unusual();
+  ApplyMetricPreset("default", &unchanged);
+  ExpectEqual(unchanged, MetricOptions());
+}
+
+TEST(MetricPreset, DexNetHasItsConfigurationsConstants) {
+  MetricOptions options;
+  ApplyMetricPreset("dexnet", &options);
+  EXPECT_EQ(options.friction, 0.5);
+  EXPECT_EQ(options.torque_scale, 1000.0);
+  EXPECT_EQ(options.object_min_extent, 0.040);
+  EXPECT_EQ(options.num_grasps, 25);
+  EXPECT_EQ(options.num_draws, 25);
+  EXPECT_EQ(options.object_translation_std, 0.01);
+  EXPECT_EQ(options.object_rotation_std, 0.01);
+  EXPECT_EQ(options.grasp_translation_std, 0.005);
+  EXPECT_EQ(options.grasp_rotation_std, 0.001);
+  EXPECT_EQ(options.friction_std, 0.1);
+}
+
+TEST(MetricPreset, EgadIsWithoutNoiseAndHasATenthOfTheTorqueScale) {
+  MetricOptions options;
+  ApplyMetricPreset("egad", &options);
+  EXPECT_EQ(options.torque_scale, 100.0);
+  EXPECT_EQ(options.num_grasps, 100);
+  EXPECT_EQ(options.num_draws, 1);
+  EXPECT_EQ(options.percentile, 75.0);
+  EXPECT_EQ(options.object_translation_std + options.object_rotation_std +
+                options.grasp_translation_std + options.grasp_rotation_std + options.friction_std,
+            0.0);
+}
+
+TEST(MetricPreset, AnUnknownNameIsRefusedAndChangesNothing) {
+  MetricOptions options = Unusual();
+  EXPECT_THROW(ApplyMetricPreset("eggad", &options), InputError);
+  EXPECT_THROW(ApplyMetricPreset("", &options), InputError);
+  ExpectEqual(options, Unusual());
+}
+
+TEST(EgadScore, IsLinearBetweenItsTwoEndsAndHigherForEasierObjects) {
+  EXPECT_EQ(EgadScore(0.0), 0.0);
+  EXPECT_EQ(EgadScore(0.0005), 0.0);
+  EXPECT_NEAR(EgadScore(0.00225), 50.0, 1e-12);
+  EXPECT_EQ(EgadScore(0.004), 100.0);
+  EXPECT_EQ(EgadScore(1.0), 100.0);
+  EXPECT_LT(EgadScore(0.001), EgadScore(0.0011));
+}
+
 TEST(MetricOptions, EveryKeyRefusesAValueJustOutsideItsRange) {
   MetricOptions options;
   OptionTable table;
