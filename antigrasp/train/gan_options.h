@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "antigrasp/core/options.h"
 
 namespace antigrasp {
@@ -13,7 +15,8 @@ struct GanOptions {
   double beta1 = 0.0;
   double beta2 = 0.9;
   double lr_decay_fraction =
-      0.25;          // last share of an episode in which the rate falls to 0; 0 = none
+      0.25;  // last share of an episode in which the rate falls to 0; 0 = none
+  std::string symmetries = "none";  // under which the real shapes are shown (symmetries.h)
   double ema = 0.0;  // decay of the averaged generator; 0 = 1 - 4 / iterations, in [0.9, 0.999]
 };
 

@@ -9,6 +9,7 @@
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/random_tensor.h"
 #include "antigrasp/train/adam.h"
+#include "antigrasp/train/symmetries.h"
 #include "antigrasp/train/tensor_archive.h"
 
 namespace antigrasp {
@@ -112,7 +113,8 @@ torch::Tensor GanTrainer::Impl::RealBatch(const torch::Tensor& shapes, RngStream
   for (std::int64_t i = 0; i < options.batch; ++i) {
     indices[i] = static_cast<std::int64_t>(rng->Below(static_cast<std::uint64_t>(shapes.size(0))));
   }
-  return Fold(shapes.index_select(0, indices).to(device, torch::kFloat));
+  const torch::Tensor batch = shapes.index_select(0, indices).to(device, torch::kFloat);
+  return Fold(RandomSymmetries(batch, options.symmetries, rng));
 }
 
 torch::Tensor GanTrainer::Impl::FakeBatch(RngStream* rng) {

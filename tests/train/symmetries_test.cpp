@@ -1,0 +1,59 @@
+#include "antigrasp/train/symmetries.h"
+
+#include <gtest/gtest.h>
+#include <torch/torch.h>
+
+#include <set>
+
+namespace antigrasp {
+namespace {
+
+// One grid that no symmetry of the cube maps to itself: value x + 10 y + 100 z.
+torch::Tensor Numbered(std::int64_t count) {
+  const torch::Tensor axis = torch::arange(4, torch::kFloat);
+  const torch::Tensor grid = axis + 10 * axis.view({4, 1}) + 100 * axis.view({4, 1, 1});
+  return grid.view({1, 1, 4, 4, 4}).expand({count, 1, 4, 4, 4}).clone();
+}
+
+// The corner values identify the symmetry.
+std::set<std::vector<float>> Shown(const std::string& symmetries) {
+  RngStream rng(1, "symmetries");
+  const torch::Tensor shown = RandomSymmetries(Numbered(400), symmetries, &rng);
+  std::set<std::vector<float>> found;
+  for (std::int64_t i = 0; i < shown.size(0); ++i) {
+    std::vector<float> corners;
+    for (const std::int64_t z : {0, 3}) {
+      for (const std::int64_t y : {0, 3}) {
+        for (const std::int64_t x : {0, 3}) corners.push_back(shown[i][0][z][y][x].item<float>());
+      }
+    }
+    found.insert(corners);
+  }
+  return found;
+}
+
+TEST(Symmetries, NoneChangesNothingAndDrawsNothing) {
+  RngStream rng(1, "symmetries"), untouched(1, "symmetries");
+  EXPECT_TRUE(torch::equal(RandomSymmetries(Numbered(3), "none", &rng), Numbered(3)));
+  EXPECT_EQ(rng.NextU64(), untouched.NextU64());
+}
+
+TEST(Symmetries, AroundZShowsAllEightAndNeverTurnsUpsideDown) {
+  const auto found = Shown("around_z");
+  EXPECT_EQ(found.size(), 8u);
+  for (const auto& corners : found) EXPECT_LT(corners[0], corners[4]);  // z still grows upwards
+}
+
+TEST(Symmetries, AroundZAndUpShowsAllSixteen) { EXPECT_EQ(Shown("around_z_and_up").size(), 16u); }
+
+TEST(Symmetries, EveryViewHoldsTheSameValues) {
+  RngStream rng(2, "symmetries");
+  const torch::Tensor shown = RandomSymmetries(Numbered(20), "around_z_and_up", &rng);
+  const auto sorted = std::get<0>(Numbered(1).flatten().sort());
+  for (std::int64_t i = 0; i < 20; ++i) {
+    EXPECT_TRUE(torch::equal(std::get<0>(shown[i].flatten().sort()), sorted));
+  }
+}
+
+}  // namespace
+}  // namespace antigrasp
