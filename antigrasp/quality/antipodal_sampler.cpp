@@ -62,24 +62,31 @@ AntipodalSampler::AntipodalSampler(const TriangleMesh& mesh, const RayScene& sce
                                    double jaw_opening)
     : surface_(mesh), scene_(scene), friction_(friction), jaw_opening_(jaw_opening) {}
 
-std::optional<Grasp> AntipodalSampler::Try(RngStream* rng) const {
+std::optional<Grasp> AntipodalSampler::Try(RngStream* rng, GraspRejection* why) const {
+  const auto reject = [why](GraspRejection reason) {
+    if (why != nullptr) *why = reason;
+    return std::nullopt;
+  };
   const SurfaceSampler::Sample first = surface_.Draw(rng);
   const Vector3d axis = DrawInCone(-first.normal, std::atan(friction_), rng);
   const auto opposite =
       scene_.Closest(first.point + jaw_opening_ * axis, -axis, jaw_opening_ * (1.0 - kSamePoint));
-  if (!opposite || !opposite->front) return std::nullopt;
+  if (!opposite || !opposite->front) return reject(GraspRejection::kNoOpposite);
 
   Grasp grasp;
   grasp.axis = axis;
   grasp.width = (opposite->point - first.point).norm();
   grasp.center = 0.5 * (first.point + opposite->point);
   const auto contacts = CloseJaws(scene_, grasp.center, axis, jaw_opening_, friction_);
-  if (!contacts) return std::nullopt;
+  if (!contacts) {
+    return reject(Slips(-opposite->normal, -axis, friction_) ? GraspRejection::kSlips
+                                                             : GraspRejection::kJawBlocked);
+  }
   grasp.contacts = *contacts;
   const double tolerance = kSamePoint * jaw_opening_;
   if ((grasp.contacts[0].point - first.point).norm() > tolerance ||
       (grasp.contacts[1].point - opposite->point).norm() > tolerance) {
-    return std::nullopt;
+    return reject(GraspRejection::kJawBlocked);
   }
   return grasp;
 }

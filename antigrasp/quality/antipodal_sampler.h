@@ -31,6 +31,13 @@ class SurfaceSampler {
 // two uniform numbers.
 Eigen::Vector3d DrawInCone(const Eigen::Vector3d& axis, double half_angle, RngStream* rng);
 
+// Why a candidate is no antipodal grasp.
+enum class GraspRejection {
+  kNoOpposite,  // nothing to close on within the opening, or only its inside
+  kSlips,       // the opposite contact is outside its friction cone
+  kJawBlocked   // a jaw misses, starts inside the object or meets another face first
+};
+
 // Draws antipodal grasps (paper III-B, Dex-Net 1.0): a point uniform over the surface, a direction
 // uniform over the friction cone about its inward normal, the opposite contact where a jaw coming
 // back along that line from the full opening first touches.
@@ -43,8 +50,9 @@ class AntipodalSampler {
   double area() const { return surface_.area(); }
 
   // One candidate; nullopt unless both jaws, opened symmetrically about the contacts' midpoint,
-  // reach the two contacts first and neither slips. Always uses five uniform numbers.
-  std::optional<Grasp> Try(RngStream* rng) const;
+  // reach the two contacts first and neither slips; then `why`, unless null, says what was wrong.
+  // Always uses five uniform numbers.
+  std::optional<Grasp> Try(RngStream* rng, GraspRejection* why = nullptr) const;
 
  private:
   SurfaceSampler surface_;

@@ -18,6 +18,9 @@ struct Grasp {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // midpoint of the contacts
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();   // unit, from contacts[0] to contacts[1]
   double width = 0.0;                                // distance between the contacts
+  // Unit, from the palm to the fingertips, orthogonal to the axis: a free way in for the gripper.
+  // Zero when none was looked for.
+  Eigen::Vector3d approach = Eigen::Vector3d::Zero();
 };
 
 // The friction cone's tangent frame at a contact whose INWARD unit normal is d: t1 is the object's

@@ -4,11 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/quality/antipodal_sampler.h"
 #include "antigrasp/quality/bootstrap.h"
 #include "antigrasp/quality/ray_scene.h"
+#include "antigrasp/quality/reachability.h"
 #include "antigrasp/quality/robust_quality.h"
 
 namespace antigrasp {
@@ -39,6 +41,29 @@ double ScaleToMetres(const TriangleMesh& mesh, const MetricOptions& options) {
   return usable ? scale : 0.0;
 }
 
+void Count(GraspRejection why, RejectedGrasps* rejected) {
+  switch (why) {
+    case GraspRejection::kNoOpposite:
+      ++rejected->no_opposite;
+      break;
+    case GraspRejection::kSlips:
+      ++rejected->slips;
+      break;
+    case GraspRejection::kJawBlocked:
+      ++rejected->jaw_blocked;
+      break;
+  }
+}
+
+// Finds the gripper's way in to the grasp; false when every one collides. Without a gripper nothing
+// is looked for.
+bool FindApproach(const std::optional<GripperCollision>& gripper, double opening, Grasp* grasp) {
+  if (!gripper) return true;
+  const auto approach = gripper->FreeApproach(*grasp, opening);
+  if (approach) grasp->approach = *approach;
+  return approach.has_value();
+}
+
 // Samples grasps until enough are found and scores each. A candidate's noise belongs to its number
 // among the candidates, so that the same candidate meets the same noise on a changed object.
 void SampleAndScore(const TriangleMesh& mesh, const MetricOptions& options, std::uint64_t seed,
@@ -46,13 +71,23 @@ void SampleAndScore(const TriangleMesh& mesh, const MetricOptions& options, std:
   const RayScene scene(mesh);
   const AntipodalSampler sampler(mesh, scene, options.friction, options.jaw_opening);
   if (!(sampler.area() > 0.0)) return;
+  std::optional<GripperCollision> gripper;
+  if (options.collision == "gripper") gripper.emplace(mesh, scene, options.gripper);
   const Eigen::Vector3d com = CenterOfMass(mesh);
   while (result->attempts < options.max_attempts &&
          static_cast<int>(result->grasps.size()) < options.num_grasps) {
     const auto candidate = static_cast<std::uint64_t>(result->attempts++);
     RngStream grasp_rng(seed, "grasp", object, candidate);
-    const auto grasp = sampler.Try(&grasp_rng);
-    if (!grasp) continue;
+    GraspRejection why{};
+    auto grasp = sampler.Try(&grasp_rng, &why);
+    if (!grasp) {
+      Count(why, &result->rejected);
+      continue;
+    }
+    if (!FindApproach(gripper, options.jaw_opening, &*grasp)) {
+      ++result->rejected.gripper_collides;
+      continue;
+    }
     RngStream noise_rng(seed, "noise", object, candidate);
     result->grasps.push_back({*grasp, RobustQuality(scene, com, *grasp, options, &noise_rng)});
   }

@@ -24,6 +24,14 @@ enum class GraspabilityStatus {
 };
 std::string_view Name(GraspabilityStatus status);
 
+// Why candidates were not kept; their sum and the grasps are the attempts.
+struct RejectedGrasps {
+  int no_opposite = 0;       // nothing to close on within the opening
+  int slips = 0;             // not antipodal
+  int jaw_blocked = 0;       // a jaw starts inside the object or meets another face first
+  int gripper_collides = 0;  // antipodal, but the gripper collides from every angle
+};
+
 // The graspability of one object: lower = harder to grasp.
 struct Graspability {
   GraspabilityStatus status = GraspabilityStatus::kNotEvaluable;
@@ -33,15 +41,16 @@ struct Graspability {
   double mean = 0.0;              // mean robust quality
   double fraction_nonzero = 0.0;  // share of grasps with quality > 0
   int attempts = 0;               // candidates tried
+  RejectedGrasps rejected;        // the others
   double scale = 1.0;             // metres per mesh unit (object_min_extent / smallest extent)
   double seconds = 0.0;           // wall time; not deterministic
   std::vector<ScoredGrasp> grasps;
 };
 
-// Equation of III-B: samples antipodal grasps uniformly over the surface, keeps those whose jaws
-// reach, estimates each one's expected epsilon over draws of object pose, grasp pose and friction,
-// takes the percentile. The random numbers depend on (seed, object) only: equal draws for an object
-// and its changed version when `object` is equal. 5-20 ms for 2,500 faces, one thread.
+// Equation of III-B: samples antipodal grasps uniformly over the surface, keeps those that the
+// gripper reaches, estimates each one's expected epsilon over draws of object pose, grasp pose and
+// friction, takes the percentile. The random numbers depend on (seed, object) only: equal draws for
+// an object and its changed version when `object` is equal. 5-20 ms for 2,500 faces, one thread.
 Graspability EvaluateGraspability(const TriangleMesh& mesh, const MetricOptions& options,
                                   std::uint64_t seed, std::uint64_t object);
 

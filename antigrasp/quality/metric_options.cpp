@@ -15,6 +15,7 @@ void ApplyMetricPreset(const std::string& name, MetricOptions* options) {
     preset.object_min_extent = 0.040;
     preset.jaw_opening = 0.05;  // gripper yumi_metal_spline
     preset.percentile = 75.0;   // of the paper and of EGAD; Dex-Net ranks single grasps
+    preset.collision = "jaws";  // neither tests the gripper against the object before scoring
   }
   if (name == "dexnet") {
     preset.torque_scale = 1000.0;
@@ -85,6 +86,9 @@ void Bind(OptionTable* table, MetricOptions* options) {
   table->Add("metric.friction_std", &o.friction_std, 0.0, 10.0, "friction noise, clipped at 0");
   table->Add("metric.bootstrap", &o.bootstrap, 0, 1e6,
              "resamples behind the 95 % interval; 0 = no interval");
+  table->Add("metric.collision", &o.collision, {"gripper", "jaws"},
+             "what must be free of collision: the whole gripper, or the two jaw paths");
+  Bind(table, &o.gripper);
 }
 
 }  // namespace antigrasp

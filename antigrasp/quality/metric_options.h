@@ -3,6 +3,7 @@
 #include <string>
 
 #include "antigrasp/core/options.h"
+#include "antigrasp/quality/gripper.h"
 
 namespace antigrasp {
 
@@ -29,6 +30,10 @@ struct MetricOptions {
   double grasp_rotation_std = 0.001;
   double friction_std = 0.1;
   int bootstrap = 1000;  // resamples behind the 95 % interval
+  // Which grasps count as reachable: "gripper" = some straight way in of the gripper is free,
+  // "jaws" = the paths of the two jaws are.
+  std::string collision = "gripper";
+  GripperModel gripper;
 };
 
 // Sets every constant to "default" (above), "dexnet" or "egad". Dex-Net: test/config.yaml of
@@ -43,6 +48,6 @@ double EgadScore(double graspability);
 // Sets the noise to "default" (above), "dexnet" (0.01, 0.01, 0.005, 0.001, 0.1) or "none".
 void ApplyNoisePreset(const std::string& name, MetricOptions* options);
 
-void Bind(OptionTable* table, MetricOptions* options);  // keys "metric.*"
+void Bind(OptionTable* table, MetricOptions* options);  // keys "metric.*", "gripper.*"
 
 }  // namespace antigrasp

@@ -139,6 +139,29 @@ TEST(AntipodalSampler, JawsCannotReachIntoANarrowSlot) {
   }
 }
 
+TEST(AntipodalSampler, SaysWhyACandidateIsNoGrasp) {
+  const auto reasons = [](const TriangleMesh& mesh) {
+    const RayScene scene(mesh);
+    const AntipodalSampler sampler(mesh, scene, kFriction, kOpening);
+    std::array<int, 3> counts{};
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      RngStream rng(1, "grasp", 0, i);
+      GraspRejection why{};
+      if (!sampler.Try(&rng, &why)) ++counts[static_cast<std::size_t>(why)];
+    }
+    return counts;
+  };
+  const auto index = [](GraspRejection why) { return static_cast<std::size_t>(why); };
+  // Wider than the opening; faces at 70.5 degrees; a plate whose other side is 4 mm from a block.
+  EXPECT_EQ(reasons(shapes::Sphere(0.05, 3))[index(GraspRejection::kNoOpposite)], 1000);
+  const auto slips = reasons(Transformed(shapes::Tetrahedron(), 0.04, Vector3d::Zero()));
+  EXPECT_GT(slips[index(GraspRejection::kSlips)], 500);
+  const TriangleMesh plate = shapes::Box({0.01, 0.04, 0.04});
+  const auto blocked =
+      reasons(shapes::Joined(plate, Transformed(plate, 1.0, 0.014 * Vector3d::UnitX())));
+  EXPECT_GT(blocked[index(GraspRejection::kJawBlocked)], 100);
+}
+
 TEST(AntipodalSampler, InvertedAndOpenMeshesGiveNoGraspsInsteadOfACrash) {
   EXPECT_TRUE(SampleGrasps(shapes::Inverted(shapes::Sphere(0.02, 3)), 500).grasps.empty());
   EXPECT_TRUE(

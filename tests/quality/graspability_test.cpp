@@ -9,6 +9,7 @@
 
 #include "antigrasp/quality/antipodal_sampler.h"
 #include "antigrasp/quality/epsilon.h"
+#include "antigrasp/quality/reachability.h"
 #include "antigrasp/quality/robust_quality.h"
 #include "tests/support/shapes.h"
 
@@ -26,6 +27,7 @@ MetricOptions Noise(const std::string& preset) {
 void ExpectSame(const Graspability& a, const Graspability& b) {
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.attempts, b.attempts);
+  EXPECT_EQ(a.rejected.gripper_collides, b.rejected.gripper_collides);
   if (a.status != GraspabilityStatus::kNotEvaluable) {
     EXPECT_EQ(a.value, b.value);
     EXPECT_EQ(a.ci_low, b.ci_low);
@@ -205,7 +207,8 @@ TEST(Graspability, IsTheSameForTheSameSeedAndObjectAndDiffersOtherwise) {
 
 TEST(Graspability, EachGraspCanBeRepeatedFromTheStreamsOfItsCandidate) {
   const TriangleMesh mesh = shapes::Box({0.04, 0.06, 0.05});
-  const MetricOptions options;
+  MetricOptions options;
+  options.collision = "jaws";
   const Graspability g = EvaluateGraspability(mesh, options, 1, 5);
   const TriangleMesh scaled = Transformed(mesh, g.scale, Vector3d::Zero());
   const RayScene scene(scaled);
@@ -220,6 +223,68 @@ TEST(Graspability, EachGraspCanBeRepeatedFromTheStreamsOfItsCandidate) {
               g.grasps[found].quality);
     ++found;
   }
+}
+
+int Sum(const RejectedGrasps& r) {
+  return r.no_opposite + r.slips + r.jaw_blocked + r.gripper_collides;
+}
+
+TEST(Graspability, AttemptsAreTheGraspsAndTheRejectedOfEveryReason) {
+  for (const TriangleMesh& mesh :
+       {shapes::Torus(2.0, 1.0, 24, 12), shapes::Cube(), shapes::Box({1.0, 6.0, 6.0})}) {
+    for (const char* collision : {"gripper", "jaws"}) {
+      MetricOptions options;
+      options.collision = collision;
+      const Graspability g = EvaluateGraspability(mesh, options, 1, 0);
+      EXPECT_EQ(g.attempts, static_cast<int>(g.grasps.size()) + Sum(g.rejected));
+      EXPECT_EQ(g.rejected.gripper_collides > 0, options.collision == "gripper");
+    }
+  }
+}
+
+TEST(Graspability, TheGripperKeepsThoseOfTheJawsGraspsThatItReaches) {
+  // A cube held askew does not fit between the fingers; the others keep their scores.
+  const TriangleMesh mesh = shapes::Cube();
+  MetricOptions gripper;
+  gripper.num_grasps = 4000;
+  gripper.max_attempts = 200;
+  MetricOptions jaws = gripper;
+  jaws.collision = "jaws";
+  const Graspability reached = EvaluateGraspability(mesh, gripper, 1, 0);
+  const Graspability all = EvaluateGraspability(mesh, jaws, 1, 0);
+  EXPECT_EQ(reached.attempts, all.attempts);
+  EXPECT_EQ(reached.grasps.size() + static_cast<std::size_t>(reached.rejected.gripper_collides),
+            all.grasps.size());
+  const TriangleMesh scaled = Transformed(mesh, all.scale, Vector3d::Zero());
+  const RayScene scene(scaled);
+  const GripperCollision collision(scaled, scene, gripper.gripper);
+  std::size_t next = 0;
+  for (const ScoredGrasp& scored : all.grasps) {
+    EXPECT_EQ(scored.grasp.approach, Vector3d::Zero());
+    const auto approach = collision.FreeApproach(scored.grasp, gripper.jaw_opening);
+    if (!approach) continue;
+    ASSERT_LT(next, reached.grasps.size());
+    const ScoredGrasp& same = reached.grasps[next++];
+    EXPECT_EQ(same.grasp.center, scored.grasp.center);
+    EXPECT_EQ(same.grasp.approach, *approach);
+    EXPECT_EQ(same.quality, scored.quality);
+  }
+  EXPECT_EQ(next, reached.grasps.size());
+}
+
+TEST(Graspability, ABallInAClosedBoxHasGraspsForTheJawsButNoneForTheGripper) {
+  const TriangleMesh box = shapes::Joined(shapes::Box({0.14, 0.14, 0.14}),
+                                          shapes::Inverted(shapes::Box({0.12, 0.12, 0.12})));
+  MetricOptions options;
+  options.object_min_extent = 0.0;
+  options.max_attempts = 3000;
+  const TriangleMesh mesh = shapes::Joined(box, shapes::Sphere(0.01, 3));
+  options.collision = "jaws";
+  EXPECT_GT(EvaluateGraspability(mesh, options, 1, 0).value, 0.0);
+  options.collision = "gripper";
+  const Graspability g = EvaluateGraspability(mesh, options, 1, 0);
+  for (const ScoredGrasp& scored : g.grasps) EXPECT_GT(scored.grasp.center.norm(), 0.05);
+  EXPECT_GT(g.rejected.gripper_collides, 5);
 }
 
 TEST(EvaluateAll, GivesTheSameBitsForAnyNumberOfThreadsAndNumbersObjects) {

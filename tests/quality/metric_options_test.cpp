@@ -9,7 +9,9 @@ namespace {
 
 // Every field different from its default.
 MetricOptions Unusual() {
-  return {0.37, 6, 0.004, 900.0, 0.03, 0.06, 11, 12, 13, 60.0, 0.001, 0.02, 0.003, 0.04, 0.05, 14};
+  return {0.37,  6,    0.004, 900.0, 0.03,   0.06,
+          11,    12,   13,    60.0,  0.001,  0.02,
+          0.003, 0.04, 0.05,  14,    "jaws", {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 9}};
 }
 
 void ExpectEqual(const MetricOptions& a, const MetricOptions& b) {
@@ -29,6 +31,16 @@ void ExpectEqual(const MetricOptions& a, const MetricOptions& b) {
   EXPECT_EQ(a.grasp_rotation_std, b.grasp_rotation_std);
   EXPECT_EQ(a.friction_std, b.friction_std);
   EXPECT_EQ(a.bootstrap, b.bootstrap);
+  EXPECT_EQ(a.collision, b.collision);
+  EXPECT_EQ(a.gripper.palm_distance, b.gripper.palm_distance);
+  EXPECT_EQ(a.gripper.fingertip_overlap, b.gripper.fingertip_overlap);
+  EXPECT_EQ(a.gripper.finger_width, b.gripper.finger_width);
+  EXPECT_EQ(a.gripper.finger_thickness, b.gripper.finger_thickness);
+  EXPECT_EQ(a.gripper.palm_depth, b.gripper.palm_depth);
+  EXPECT_EQ(a.gripper.palm_length, b.gripper.palm_length);
+  EXPECT_EQ(a.gripper.palm_width, b.gripper.palm_width);
+  EXPECT_EQ(a.gripper.approach_distance, b.gripper.approach_distance);
+  EXPECT_EQ(a.gripper.approach_angles, b.gripper.approach_angles);
 }
 
 TEST(MetricOptions, EveryFieldSurvivesTheConfigurationFile) {
@@ -36,7 +48,7 @@ TEST(MetricOptions, EveryFieldSurvivesTheConfigurationFile) {
   OptionTable out, in;
   Bind(&out, &written);
   Bind(&in, &read);
-  EXPECT_EQ(out.options().size(), 16u);
+  EXPECT_EQ(out.options().size(), 26u);
   in.ApplyText(out.Dump(), "dump");
   ExpectEqual(read, Unusual());
 }
@@ -101,7 +113,7 @@ TEST(MetricOptions, EveryKeyRefusesAValueJustOutsideItsRange) {
   OptionTable table;
   Bind(&table, &options);
   for (const Option& option : table.options()) {
-    EXPECT_EQ(option.key.rfind("metric.", 0), 0u) << option.key;
+    EXPECT_TRUE(option.key.starts_with("metric.") || option.key.starts_with("gripper."));
     EXPECT_FALSE(option.help.empty()) << option.key;
     EXPECT_THROW(table.ApplyOverride(option.key + "=-1"), InputError) << option.key;
     EXPECT_THROW(table.ApplyOverride(option.key + "=nan"), InputError) << option.key;
@@ -111,6 +123,8 @@ TEST(MetricOptions, EveryKeyRefusesAValueJustOutsideItsRange) {
   EXPECT_THROW(table.ApplyOverride("metric.num_draws=0"), InputError);
   EXPECT_THROW(table.ApplyOverride("metric.percentile=100.5"), InputError);
   EXPECT_THROW(table.ApplyOverride("metric.no_such_key=1"), InputError);
+  EXPECT_THROW(table.ApplyOverride("metric.collision=jaw"), InputError);
+  EXPECT_THROW(table.ApplyOverride("gripper.approach_angles=0"), InputError);
   ExpectEqual(options, MetricOptions{});
 }
 
