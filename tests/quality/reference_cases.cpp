@@ -54,6 +54,15 @@ ReferenceCase Parse(const Row& row) {
   c.matrix_norm = row.Number("G_frobenius");
   c.epsilon = row.Number("eps_exact");
   c.epsilon_own_frame = row.Number("eps_exact_analytic_frame");
+  c.force_closure = row.Text("force_closure") == "1";
+  c.force_closure_signed = row.Text("force_closure_signed") == "1";
+  c.target << row.Vector("wf"), row.Vector("wt");
+  c.force_limit = row.Number("force_limit");
+  c.dexnet_resistance = row.Number("wr_dexnet");
+  c.resistance = row.Number("wr_ref");
+  c.coefficient_norm = row.Number("wr_ref_norm");
+  c.residual2 = row.Number("wr_ref_resid2");
+  c.below_limit = row.Text("wr_ref_method") == "nnls";
   return c;
 }
 

@@ -21,6 +21,15 @@ struct ReferenceCase {
   double matrix_norm = 0.0;                      // Frobenius; NaN where it slipped
   double epsilon = 0.0;                          // with `frames`
   double epsilon_own_frame = 0.0;                // with the continuum frame
+  bool force_closure = false;                    // Dex-Net's default, either sign of the normals
+  bool force_closure_signed = false;
+  Eigen::Matrix<double, 6, 1> target;  // wrench to resist, torque in scaled units
+  double force_limit = 0.0;
+  double dexnet_resistance = 0.0;  // as Dex-Net's own solver leaves it
+  double resistance = 0.0;         // the rest with the optimum of the same programme; NaN
+  double coefficient_norm = 0.0;   // where it slipped
+  double residual2 = 0.0;
+  bool below_limit = false;  // the reference is exact there (NNLS), to 1e-6 or so elsewhere
 };
 
 std::vector<ReferenceCase> ReadReferenceCases();
