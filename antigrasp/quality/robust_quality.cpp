@@ -1,6 +1,8 @@
 #include "antigrasp/quality/robust_quality.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "antigrasp/quality/epsilon.h"
 #include "antigrasp/quality/jaw_closing.h"
@@ -16,11 +18,14 @@ Vector3d NormalVector(double std, RngStream* rng) {
   return v;
 }
 
-// The matrix exponential of the cross-product matrix of `v`.
-Eigen::Matrix3d RotationFromVector(const Vector3d& v) {
-  const double angle = v.norm();
-  if (!(angle > 0.0)) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, v / angle).toRotationMatrix();
+// `point` turned by the rotation vector `turn` (Rodrigues).
+Vector3d Turned(const Vector3d& point, const Vector3d& turn) {
+  const double angle = turn.norm();
+  if (!(angle > 0.0)) return point;
+  const Vector3d axis = turn / angle;
+  const double cosine = std::cos(angle);
+  return cosine * point + std::sin(angle) * axis.cross(point) +
+         (1.0 - cosine) * axis.dot(point) * axis;
 }
 
 }  // namespace
@@ -35,15 +40,19 @@ NoiseDraw DrawNoise(const MetricOptions& options, RngStream* rng) {
   return draw;
 }
 
+JawPose ExecutedPose(const Grasp& grasp, const Vector3d& com, const NoiseDraw& noise) {
+  const Vector3d center_in_world = grasp.center + noise.grasp_translation;
+  const Vector3d axis_in_world = Turned(grasp.axis, noise.grasp_rotation);
+  const Vector3d back = -noise.object_rotation;
+  return {Turned(center_in_world - com - noise.object_translation, back) + com,
+          Turned(axis_in_world, back).normalized()};
+}
+
 double ExecutedQuality(const RayScene& scene, const Vector3d& com, const Grasp& grasp,
                        const MetricOptions& options, const NoiseDraw& noise) {
-  const Eigen::Matrix3d object_from_world = RotationFromVector(noise.object_rotation).transpose();
-  const Vector3d center_in_world = grasp.center + noise.grasp_translation;
-  const Vector3d axis_in_world = RotationFromVector(noise.grasp_rotation) * grasp.axis;
-  const Vector3d center =
-      object_from_world * (center_in_world - com - noise.object_translation) + com;
-  const Vector3d axis = object_from_world * axis_in_world;
-  const auto contacts = CloseJaws(scene, center, axis, options.jaw_opening, noise.friction);
+  const JawPose pose = ExecutedPose(grasp, com, noise);
+  const auto contacts =
+      CloseJaws(scene, pose.center, pose.axis, options.jaw_opening, noise.friction);
   if (!contacts) return 0.0;
   const WrenchModel model{noise.friction, options.cone_edges, options.finger_radius,
                           options.torque_scale};

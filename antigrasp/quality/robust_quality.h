@@ -22,6 +22,13 @@ struct NoiseDraw {
 // up between objects and between noise levels.
 NoiseDraw DrawNoise(const MetricOptions& options, RngStream* rng);
 
+// Where the jaws really are, in the moved object's own frame.
+struct JawPose {
+  Eigen::Vector3d center;
+  Eigen::Vector3d axis;  // unit
+};
+JawPose ExecutedPose(const Grasp& grasp, const Eigen::Vector3d& com, const NoiseDraw& noise);
+
 // Epsilon of the grasp as executed under one draw: the object (its centre of mass with it) and the
 // gripper are displaced, the jaws close anew. 0 when a jaw misses, starts inside or slips.
 // Everything is computed in the moved object's own frame, by moving the gripper the other way: the

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace antigrasp::bench {
+
+void CompareEpsilon();
+void CompareEvaluation();
+
+}  // namespace antigrasp::bench
