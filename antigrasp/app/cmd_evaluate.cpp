@@ -58,7 +58,7 @@ std::string ScoresCsv(const std::vector<ScoredObject>& scored, bool egad) {
 std::string GraspsCsv(const std::vector<ScoredObject>& scored) {
   std::string csv =
       "object,grasp,p1x,p1y,p1z,n1x,n1y,n1z,p2x,p2y,p2z,n2x,n2y,n2z,axis_x,axis_y,axis_z,width,"
-      "robust_quality\n";
+      "robust_quality,approach_x,approach_y,approach_z\n";
   for (const ScoredObject& item : scored) {
     for (std::size_t g = 0; g < item.score.grasps.size(); ++g) {
       const ScoredGrasp& scored_grasp = item.score.grasps[g];
@@ -71,8 +71,10 @@ std::string GraspsCsv(const std::vector<ScoredObject>& scored) {
         add(contact.normal);
       }
       add(scored_grasp.grasp.axis);
-      csv += "," + FormatDouble(scored_grasp.grasp.width) + "," +
-             FormatDouble(scored_grasp.quality) + "\n";
+      csv +=
+          "," + FormatDouble(scored_grasp.grasp.width) + "," + FormatDouble(scored_grasp.quality);
+      add(scored_grasp.grasp.approach);
+      csv += "\n";
     }
   }
   return csv;

@@ -22,8 +22,9 @@ OptionFlags MetricOptionFlags(CLI::App* command) {
 }  // namespace
 
 std::string FlagOf(const std::string& key) {
-  std::string flag = "--" + key.substr(key.rfind('.') + 1);
+  std::string flag = "--" + key.substr(key.starts_with("gripper.") ? 0 : key.rfind('.') + 1);
   std::replace(flag.begin() + 2, flag.end(), '_', '-');
+  std::replace(flag.begin() + 2, flag.end(), '.', '-');
   return flag;
 }
 

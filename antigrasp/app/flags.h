@@ -23,8 +23,8 @@ class OptionFlags {
   std::shared_ptr<Given> given_ = std::make_shared<Given>();
 };
 
-// The metric's constants as flags of a command: one per "metric.*" option, --preset NAME and
-// --noise PRESET. Single constants win over --noise, --noise over --preset.
+// The metric's constants as flags of a command: one per "metric.*" and "gripper.*" option,
+// --preset NAME and --noise PRESET. Single constants win over --noise, --noise over --preset.
 class MetricFlags {
  public:
   explicit MetricFlags(CLI::App* command);
@@ -37,7 +37,8 @@ class MetricFlags {
   OptionFlags options_;
 };
 
-// "metric.num_grasps" -> "--num-grasps".
+// "metric.num_grasps" -> "--num-grasps"; the gripper's keep their section: "gripper.palm_width" ->
+// "--gripper-palm-width".
 std::string FlagOf(const std::string& key);
 
 }  // namespace antigrasp
