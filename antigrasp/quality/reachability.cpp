@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <unsupported/Eigen/BVH>
 #include <vector>
 
@@ -16,7 +17,7 @@ using Eigen::AlignedBox3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Triangle = std::array<Vector3d, 3>;
-using Tree = Eigen::KdBVH<double, 3, int>;  // of indices into the triangles
+using Tree = Eigen::KdBVH<double, 3, int>;  // of indices of faces
 
 // Shorter than this (metres or a share of a unit vector), a direction is rounding.
 constexpr double kNoDirection = 1e-6;
@@ -29,7 +30,14 @@ struct OrientedBox {
   Vector3d half;    // box frame
 };
 
-bool Meets(const OrientedBox& box, const Triangle& triangle) {
+Triangle Corners(const TriangleMesh& mesh, std::size_t face) {
+  const auto& [a, b, c] = mesh.faces[face];
+  return {mesh.vertices[static_cast<std::size_t>(a)], mesh.vertices[static_cast<std::size_t>(b)],
+          mesh.vertices[static_cast<std::size_t>(c)]};
+}
+
+bool Meets(const OrientedBox& box, const TriangleMesh& mesh, int face) {
+  const Triangle triangle = Corners(mesh, static_cast<std::size_t>(face));
   const auto box_from_object = box.object_from_box.transpose();
   return BoxMeetsTriangle(box.half, {box_from_object * (triangle[0] - box.center),
                                      box_from_object * (triangle[1] - box.center),
@@ -39,8 +47,8 @@ bool Meets(const OrientedBox& box, const Triangle& triangle) {
 // One query of the tree, as Eigen's BVIntersect wants it.
 class BoxQuery {
  public:
-  BoxQuery(const OrientedBox& box, const std::vector<Triangle>& triangles)
-      : box_(box), triangles_(triangles), abs_axes_(box.object_from_box.cwiseAbs()) {
+  BoxQuery(const OrientedBox& box, const TriangleMesh& mesh)
+      : box_(box), mesh_(mesh), abs_axes_(box.object_from_box.cwiseAbs()) {
     const Vector3d extent = abs_axes_ * box.half;
     min_ = box.center - extent;
     max_ = box.center + extent;
@@ -60,8 +68,8 @@ class BoxQuery {
     return true;
   }
 
-  bool intersectObject(int triangle) {
-    if (Meets(box_, triangles_[static_cast<std::size_t>(triangle)])) hit_ = triangle;
+  bool intersectObject(int face) {
+    if (Meets(box_, mesh_, face)) hit_ = face;
     return hit_ != kNone;
   }
 
@@ -69,7 +77,7 @@ class BoxQuery {
 
  private:
   const OrientedBox& box_;
-  const std::vector<Triangle>& triangles_;
+  const TriangleMesh& mesh_;
   Matrix3d abs_axes_;
   Vector3d min_, max_;
   int hit_ = kNone;
@@ -91,36 +99,31 @@ Vector3d FirstApproach(const Grasp& grasp, const Vector3d& com) {
 }  // namespace
 
 struct GripperCollision::Impl {
+  const TriangleMesh& mesh;
   const RayScene& scene;
   GripperModel model;
   Vector3d com;
-  std::vector<Triangle> triangles;
   Tree tree;
 
-  Impl(const TriangleMesh& mesh, const RayScene& ray_scene, const GripperModel& gripper)
-      : scene(ray_scene), model(gripper), com(CenterOfMass(mesh)) {
-    std::vector<int> indices;
+  Impl(const TriangleMesh& object, const RayScene& ray_scene, const GripperModel& gripper)
+      : mesh(object), scene(ray_scene), model(gripper), com(CenterOfMass(object)) {
+    std::vector<int> indices(mesh.faces.size());
+    std::iota(indices.begin(), indices.end(), 0);
     std::vector<AlignedBox3d> boxes;
-    triangles.reserve(mesh.faces.size());
-    indices.reserve(mesh.faces.size());
     boxes.reserve(mesh.faces.size());
-    for (const auto& face : mesh.faces) {
-      const auto corner = [&](std::size_t k) -> const Vector3d& {
-        return mesh.vertices[static_cast<std::size_t>(face[k])];
-      };
-      indices.push_back(static_cast<int>(triangles.size()));
-      triangles.push_back({corner(0), corner(1), corner(2)});
-      boxes.emplace_back(corner(0).cwiseMin(corner(1)).cwiseMin(corner(2)),
-                         corner(0).cwiseMax(corner(1)).cwiseMax(corner(2)));
+    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+      const Triangle corners = Corners(mesh, i);
+      boxes.emplace_back(corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]),
+                         corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]));
     }
     tree.init(indices.begin(), indices.end(), boxes.begin(), boxes.end());
   }
 
-  // A triangle the box meets, or kNone. `guess` is tried first: what blocks one angle often blocks
+  // A face the box meets, or kNone. `guess` is tried first: what blocks one angle often blocks
   // the next.
   int Hit(const OrientedBox& box, int guess) const {
-    if (guess != kNone && Meets(box, triangles[static_cast<std::size_t>(guess)])) return guess;
-    BoxQuery query(box, triangles);
+    if (guess != kNone && Meets(box, mesh, guess)) return guess;
+    BoxQuery query(box, mesh);
     Eigen::BVIntersect(tree, query);
     return query.hit();
   }
@@ -130,7 +133,7 @@ struct GripperCollision::Impl {
     return hit && !hit->front;
   }
 
-  // `blocking` carries the triangle that each box met last from one angle to the next.
+  // `blocking` carries the face that each box met last from one angle to the next.
   bool IsFree(const Grasp& grasp, const std::array<BoundingBox, 3>& boxes, const Vector3d& approach,
               std::array<int, 3>* blocking) const {
     Matrix3d object_from_gripper;
