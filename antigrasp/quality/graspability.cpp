@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "antigrasp/core/rng.h"
+#include "antigrasp/quality/adaptive_draws.h"
 #include "antigrasp/quality/antipodal_sampler.h"
 #include "antigrasp/quality/bootstrap.h"
 #include "antigrasp/quality/ray_scene.h"
@@ -64,37 +65,65 @@ bool FindApproach(const std::optional<GripperCollision>& gripper, double opening
   return approach.has_value();
 }
 
-// Samples grasps until enough are found and scores each. A candidate's noise belongs to its number
-// among the candidates, so that the same candidate meets the same noise on a changed object.
-void SampleAndScore(const TriangleMesh& mesh, const MetricOptions& options, std::uint64_t seed,
-                    std::uint64_t object, Graspability* result) {
-  const RayScene scene(mesh);
+// Two grasps are one when their contacts coincide, whichever jaw holds which.
+bool SameGrasp(const Grasp& a, const Grasp& b, double separation) {
+  const auto near = [&](std::size_t i, std::size_t j) {
+    return (a.contacts[i].point - b.contacts[j].point).norm() < separation;
+  };
+  return (near(0, 0) && near(1, 1)) || (near(0, 1) && near(1, 0));
+}
+
+bool IsCopy(const Grasp& grasp, const std::vector<NoisyGrasp>& kept, double separation) {
+  return std::any_of(kept.begin(), kept.end(), [&](const NoisyGrasp& other) {
+    return SameGrasp(grasp, other.grasp, separation);
+  });
+}
+
+// Samples grasps until enough are found. A candidate's noise belongs to its number among the
+// candidates, so that the same candidate meets the same noise on a changed object.
+std::vector<NoisyGrasp> SampleGrasps(const TriangleMesh& mesh, const RayScene& scene,
+                                     const MetricOptions& options, std::uint64_t seed,
+                                     std::uint64_t object, Graspability* result) {
+  std::vector<NoisyGrasp> kept;
   const AntipodalSampler sampler(mesh, scene, options.friction, options.jaw_opening);
-  if (!(sampler.area() > 0.0)) return;
+  if (!(sampler.area() > 0.0)) return kept;
   std::optional<GripperCollision> gripper;
   if (options.collision == "gripper") gripper.emplace(mesh, scene, options.gripper);
-  const Eigen::Vector3d com = CenterOfMass(mesh);
   while (result->attempts < options.max_attempts &&
-         static_cast<int>(result->grasps.size()) < options.num_grasps) {
+         static_cast<int>(kept.size()) < options.num_grasps) {
     const auto candidate = static_cast<std::uint64_t>(result->attempts++);
     RngStream grasp_rng(seed, "grasp", object, candidate);
     GraspRejection why{};
     auto grasp = sampler.Try(&grasp_rng, &why);
     if (!grasp) {
       Count(why, &result->rejected);
-      continue;
-    }
-    if (!FindApproach(gripper, options.jaw_opening, &*grasp)) {
+    } else if (IsCopy(*grasp, kept, options.grasp_separation)) {
+      ++result->rejected.copies;
+    } else if (!FindApproach(gripper, options.jaw_opening, &*grasp)) {
       ++result->rejected.gripper_collides;
-      continue;
+    } else {
+      kept.push_back({*grasp, RngStream(seed, "noise", object, candidate)});
     }
-    RngStream noise_rng(seed, "noise", object, candidate);
-    result->grasps.push_back({*grasp, RobustQuality(scene, com, *grasp, options, &noise_rng)});
+  }
+  return kept;
+}
+
+void SampleAndScore(const TriangleMesh& mesh, const MetricOptions& options, std::uint64_t seed,
+                    std::uint64_t object, Graspability* result) {
+  const RayScene scene(mesh);
+  std::vector<NoisyGrasp> grasps = SampleGrasps(mesh, scene, options, seed, object, result);
+  const Eigen::Vector3d com = CenterOfMass(mesh);
+  if (options.adaptive) {
+    DrawAdaptively(scene, com, options, &grasps);
+  } else {
+    DrawAll(scene, com, options, &grasps);
+  }
+  for (const NoisyGrasp& noisy : grasps) {
+    result->grasps.push_back({noisy.grasp, noisy.Mean(), noisy.draws});
   }
 }
 
-void Summarise(const MetricOptions& options, std::uint64_t seed, std::uint64_t object,
-               Graspability* result) {
+void Summarise(const MetricOptions& options, Graspability* result) {
   std::vector<double> qualities;
   double sum = 0.0;
   int nonzero = 0;
@@ -107,9 +136,7 @@ void Summarise(const MetricOptions& options, std::uint64_t seed, std::uint64_t o
   result->value = DiscretePercentile(qualities, options.percentile);
   result->mean = sum / count;
   result->fraction_nonzero = nonzero / count;
-  RngStream bootstrap_rng(seed, "bootstrap", object);
-  const Interval interval =
-      BootstrapPercentile(qualities, options.percentile, options.bootstrap, &bootstrap_rng);
+  const Interval interval = BootstrapPercentile(qualities, options.percentile);
   result->ci_low = interval.low;
   result->ci_high = interval.high;
 }
@@ -135,7 +162,7 @@ Graspability Evaluate(const TriangleMesh& mesh, const MetricOptions& options, st
   result.status = static_cast<int>(result.grasps.size()) < options.num_grasps
                       ? GraspabilityStatus::kFewGrasps
                       : GraspabilityStatus::kOk;
-  Summarise(options, seed, object, &result);
+  Summarise(options, &result);
   return result;
 }
 

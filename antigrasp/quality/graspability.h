@@ -14,6 +14,7 @@ namespace antigrasp {
 struct ScoredGrasp {
   Grasp grasp;           // object frame after rescaling, metres
   double quality = 0.0;  // robust quality: mean epsilon over the draws (paper III-B)
+  int draws = 0;         // num_draws, or fewer when adaptive
 };
 
 enum class GraspabilityStatus {
@@ -29,6 +30,7 @@ struct RejectedGrasps {
   int no_opposite = 0;       // nothing to close on within the opening
   int slips = 0;             // not antipodal
   int jaw_blocked = 0;       // a jaw starts inside the object or meets another face first
+  int copies = 0;            // of a grasp already kept
   int gripper_collides = 0;  // antipodal, but the gripper collides from every angle
 };
 
@@ -36,7 +38,7 @@ struct RejectedGrasps {
 struct Graspability {
   GraspabilityStatus status = GraspabilityStatus::kNotEvaluable;
   double value = 0.0;   // discrete percentile of the robust qualities
-  double ci_low = 0.0;  // bootstrap 95 % interval over grasps
+  double ci_low = 0.0;  // exact bootstrap 95 % interval over grasps
   double ci_high = 0.0;
   double mean = 0.0;              // mean robust quality
   double fraction_nonzero = 0.0;  // share of grasps with quality > 0

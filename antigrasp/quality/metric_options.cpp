@@ -73,6 +73,10 @@ void Bind(OptionTable* table, MetricOptions* options) {
   table->Add("metric.num_grasps", &o.num_grasps, 1, 1e6, "grasps scored per object");
   table->Add("metric.num_draws", &o.num_draws, 1, 1e6, "noise draws per grasp");
   table->Add("metric.max_attempts", &o.max_attempts, 1, 1e9, "candidate grasps tried per object");
+  table->Add("metric.grasp_separation", &o.grasp_separation, 0.0, 1.0,
+             "a grasp whose two contacts both lie this near to another's is left out, m");
+  table->Add("metric.adaptive", &o.adaptive,
+             "fewer draws for grasps that are clearly above or below the percentile");
   table->Add("metric.percentile", &o.percentile, 0.0, 100.0,
              "percentile of robust quality that is the graspability");
   table->Add("metric.object_translation_std", &o.object_translation_std, 0.0, 10.0,
@@ -84,8 +88,6 @@ void Bind(OptionTable* table, MetricOptions* options) {
   table->Add("metric.grasp_rotation_std", &o.grasp_rotation_std, 0.0, 10.0,
              "grasp axis rotation noise per axis, rad");
   table->Add("metric.friction_std", &o.friction_std, 0.0, 10.0, "friction noise, clipped at 0");
-  table->Add("metric.bootstrap", &o.bootstrap, 0, 1e6,
-             "resamples behind the 95 % interval; 0 = no interval");
   table->Add("metric.collision", &o.collision, {"gripper", "jaws"},
              "what must be free of collision: the whole gripper, or the two jaw paths");
   Bind(table, &o.gripper);

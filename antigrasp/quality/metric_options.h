@@ -21,15 +21,16 @@ struct MetricOptions {
   // Sampling.
   int num_grasps = 100;
   int num_draws = 25;
-  int max_attempts = 4000;  // candidate grasps tried per object
+  int max_attempts = 4000;         // candidate grasps tried per object
+  double grasp_separation = 1e-4;  // nearer than this, both contacts, two grasps are one
   double percentile = 75.0;
+  bool adaptive = false;  // fewer draws for grasps far from the percentile (adaptive_draws.h)
   // Noise (standard deviations).
   double object_translation_std = 0.0025;
   double object_rotation_std = 0.01;
   double grasp_translation_std = 0.00125;
   double grasp_rotation_std = 0.001;
   double friction_std = 0.1;
-  int bootstrap = 1000;  // resamples behind the 95 % interval
   // Which grasps count as reachable: "gripper" = some straight way in of the gripper is free,
   // "jaws" = the paths of the two jaws are.
   std::string collision = "gripper";

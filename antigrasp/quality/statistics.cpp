@@ -15,6 +15,25 @@ std::size_t PercentileRank(std::size_t n, double percent) {
   return static_cast<std::size_t>(std::clamp(rank, 0.0, static_cast<double>(n - 1)));
 }
 
+std::vector<double> LogFactorials(std::size_t n) {
+  std::vector<double> logs(n + 1, 0.0);
+  for (std::size_t k = 2; k <= n; ++k) logs[k] = logs[k - 1] + std::log(static_cast<double>(k));
+  return logs;
+}
+
+// The probability of at least `at_least` successes in n trials, n from the table's size.
+double BinomialTail(const std::vector<double>& log_factorials, std::size_t at_least, double p) {
+  if (p >= 1.0) return 1.0;
+  const std::size_t n = log_factorials.size() - 1;
+  const double log_p = std::log(p), log_q = std::log1p(-p);
+  double sum = 0.0;
+  for (std::size_t k = at_least; k <= n; ++k) {
+    sum += std::exp(log_factorials[n] - log_factorials[k] - log_factorials[n - k] +
+                    static_cast<double>(k) * log_p + static_cast<double>(n - k) * log_q);
+  }
+  return sum;
+}
+
 }  // namespace
 
 double DiscretePercentile(std::vector<double> values, double percent) {
@@ -25,24 +44,26 @@ double DiscretePercentile(std::vector<double> values, double percent) {
   return *at;
 }
 
-Interval BootstrapPercentile(std::vector<double> values, double percent, int resamples,
-                             RngStream* rng) {
+Interval BootstrapPercentile(std::vector<double> values, double percent) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
-  const std::size_t rank = PercentileRank(values.size(), percent);
-  if (resamples <= 0) return {values[rank], values[rank]};
-  std::vector<double> estimates;
-  estimates.reserve(static_cast<std::size_t>(resamples));
-  std::vector<std::uint32_t> counts(values.size());
-  for (int i = 0; i < resamples; ++i) {
-    // Counting how often each sorted value was drawn gives the percentile without a sort.
-    std::fill(counts.begin(), counts.end(), 0u);
-    for (std::size_t k = 0; k < values.size(); ++k) ++counts[rng->Below(values.size())];
-    std::size_t at = 0;
-    for (std::size_t below = counts[0]; below <= rank; below += counts[at]) ++at;
-    estimates.push_back(values[at]);
-  }
-  return {DiscretePercentile(estimates, 2.5), DiscretePercentile(estimates, 97.5)};
+  const std::size_t at_least = PercentileRank(values.size(), percent) + 1;
+  const std::vector<double> log_factorials = LogFactorials(values.size());
+  // The smallest value that the resampled percentile does not exceed with this probability.
+  const auto quantile = [&](double probability) {
+    std::size_t low = 0, high = values.size() - 1;
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      const double p = static_cast<double>(middle + 1) / static_cast<double>(values.size());
+      if (BinomialTail(log_factorials, at_least, p) >= probability) {
+        high = middle;
+      } else {
+        low = middle + 1;
+      }
+    }
+    return values[low];
+  };
+  return {quantile(0.025), quantile(0.975)};
 }
 
 MeanInterval MeanWithInterval(const std::vector<double>& values) {

@@ -9,9 +9,25 @@ namespace {
 
 // Every field different from its default.
 MetricOptions Unusual() {
-  return {0.37,  6,    0.004, 900.0, 0.03,   0.06,
-          11,    12,   13,    60.0,  0.001,  0.02,
-          0.003, 0.04, 0.05,  14,    "jaws", {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 9}};
+  return {0.37,
+          6,
+          0.004,
+          900.0,
+          0.03,
+          0.06,
+          11,
+          12,
+          13,
+          2e-3,
+          60.0,
+          true,
+          0.001,
+          0.02,
+          0.003,
+          0.04,
+          0.05,
+          "jaws",
+          {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 9}};
 }
 
 void ExpectEqual(const MetricOptions& a, const MetricOptions& b) {
@@ -24,13 +40,14 @@ void ExpectEqual(const MetricOptions& a, const MetricOptions& b) {
   EXPECT_EQ(a.num_grasps, b.num_grasps);
   EXPECT_EQ(a.num_draws, b.num_draws);
   EXPECT_EQ(a.max_attempts, b.max_attempts);
+  EXPECT_EQ(a.grasp_separation, b.grasp_separation);
   EXPECT_EQ(a.percentile, b.percentile);
+  EXPECT_EQ(a.adaptive, b.adaptive);
   EXPECT_EQ(a.object_translation_std, b.object_translation_std);
   EXPECT_EQ(a.object_rotation_std, b.object_rotation_std);
   EXPECT_EQ(a.grasp_translation_std, b.grasp_translation_std);
   EXPECT_EQ(a.grasp_rotation_std, b.grasp_rotation_std);
   EXPECT_EQ(a.friction_std, b.friction_std);
-  EXPECT_EQ(a.bootstrap, b.bootstrap);
   EXPECT_EQ(a.collision, b.collision);
   EXPECT_EQ(a.gripper.palm_distance, b.gripper.palm_distance);
   EXPECT_EQ(a.gripper.fingertip_overlap, b.gripper.fingertip_overlap);
@@ -48,7 +65,7 @@ TEST(MetricOptions, EveryFieldSurvivesTheConfigurationFile) {
   OptionTable out, in;
   Bind(&out, &written);
   Bind(&in, &read);
-  EXPECT_EQ(out.options().size(), 26u);
+  EXPECT_EQ(out.options().size(), 27u);
   in.ApplyText(out.Dump(), "dump");
   ExpectEqual(read, Unusual());
 }
@@ -78,6 +95,7 @@ TEST(MetricPreset, DexNetHasItsConfigurationsConstants) {
   EXPECT_EQ(options.grasp_translation_std, 0.005);
   EXPECT_EQ(options.grasp_rotation_std, 0.001);
   EXPECT_EQ(options.friction_std, 0.1);
+  EXPECT_EQ(options.collision, "jaws");
 }
 
 TEST(MetricPreset, EgadIsWithoutNoiseAndHasATenthOfTheTorqueScale) {
@@ -86,6 +104,7 @@ TEST(MetricPreset, EgadIsWithoutNoiseAndHasATenthOfTheTorqueScale) {
   EXPECT_EQ(options.torque_scale, 100.0);
   EXPECT_EQ(options.num_grasps, 100);
   EXPECT_EQ(options.num_draws, 1);
+  EXPECT_EQ(options.collision, "jaws");
   EXPECT_EQ(options.percentile, 75.0);
   EXPECT_EQ(options.object_translation_std + options.object_rotation_std +
                 options.grasp_translation_std + options.grasp_rotation_std + options.friction_std,

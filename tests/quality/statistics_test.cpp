@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "antigrasp/core/rng.h"
 #include "antigrasp/quality/bootstrap.h"
 #include "antigrasp/quality/graspability.h"
 
@@ -34,32 +35,41 @@ TEST(DiscretePercentile, OfAnEmptySampleIsABug) {
   EXPECT_THROW(DiscretePercentile({}, 75.0), std::logic_error);
 }
 
-TEST(BootstrapPercentile, EndsMatchTheBinomialDistribution) {
-  // The k-th smallest of a resample of n is <= x_(i) when Binomial(n, i/n) >= k. For n = 100 and
-  // k = 75 its standard deviation is sqrt(100 * 0.75 * 0.25) = 4.33 ranks.
-  RngStream rng(1, "bootstrap");
-  const Interval interval = BootstrapPercentile(Count(100), 75.0, 20000, &rng);
+TEST(BootstrapPercentile, MatchesTheNormalApproximationOfTheBinomial) {
+  const Interval interval = BootstrapPercentile(Count(100), 75.0);
   EXPECT_NEAR(interval.low, 75.0 - 1.96 * 4.33, 1.1);
   EXPECT_NEAR(interval.high, 75.0 + 1.96 * 4.33, 1.1);
 }
 
-TEST(BootstrapPercentile, ContainsTheEstimateAndIsReproducible) {
-  RngStream rng(2, "bootstrap"), again(2, "bootstrap");
-  const Interval a = BootstrapPercentile(Count(30), 75.0, 1000, &rng);
-  const Interval b = BootstrapPercentile(Count(30), 75.0, 1000, &again);
-  EXPECT_LE(a.low, 23.0);
-  EXPECT_GE(a.high, 23.0);
-  EXPECT_EQ(a.low, b.low);
-  EXPECT_EQ(a.high, b.high);
+TEST(BootstrapPercentile, IsTheBinomialTailOnAHandfulOfValues) {
+  // The larger of two is at most the first value with probability 1/4, the smaller with 3/4.
+  EXPECT_EQ(BootstrapPercentile({1.0, 2.0}, 100.0).low, 1.0);
+  EXPECT_EQ(BootstrapPercentile({1.0, 2.0}, 50.0).high, 2.0);
+  // The largest of six is below the fourth with probability (3/6)^6 = 0.016, at most it with
+  // (4/6)^6 = 0.088.
+  EXPECT_EQ(BootstrapPercentile(Count(6), 100.0).low, 4.0);
 }
 
-TEST(BootstrapPercentile, CollapsesWithoutResamplesOrSpread) {
-  RngStream rng(3, "bootstrap");
-  EXPECT_EQ(BootstrapPercentile(Count(4), 75.0, 0, &rng).low, 3.0);
-  EXPECT_EQ(BootstrapPercentile(Count(4), 75.0, 0, &rng).high, 3.0);
-  const Interval same = BootstrapPercentile({2.0, 2.0, 2.0}, 75.0, 100, &rng);
+TEST(BootstrapPercentile, AgreesWithResampling) {
+  const std::vector<double> values = Count(40);
+  const int resamples = 40000;
+  std::vector<double> estimates;
+  RngStream rng(1, "bootstrap");
+  for (int i = 0; i < resamples; ++i) {
+    std::vector<double> drawn;
+    for (std::size_t k = 0; k < values.size(); ++k) drawn.push_back(values[rng.Below(40)]);
+    estimates.push_back(DiscretePercentile(drawn, 60.0));
+  }
+  const Interval interval = BootstrapPercentile(values, 60.0);
+  EXPECT_EQ(interval.low, DiscretePercentile(estimates, 2.5));
+  EXPECT_EQ(interval.high, DiscretePercentile(estimates, 97.5));
+}
+
+TEST(BootstrapPercentile, CollapsesWithoutSpread) {
+  const Interval same = BootstrapPercentile({2.0, 2.0, 2.0}, 75.0);
   EXPECT_EQ(same.low, 2.0);
   EXPECT_EQ(same.high, 2.0);
+  EXPECT_EQ(BootstrapPercentile({5.0}, 75.0).high, 5.0);
 }
 
 TEST(MeanWithInterval, MatchesTheFormulaOnAKnownSample) {

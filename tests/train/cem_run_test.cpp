@@ -39,7 +39,6 @@ RunConfig Tiny() {
   config.metric.num_grasps = 10;
   config.metric.num_draws = 4;
   config.metric.max_attempts = 200;
-  config.metric.bootstrap = 20;
   config.stl_count = 2;
   return config;
 }
