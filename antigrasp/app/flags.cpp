@@ -1,6 +1,7 @@
 #include "antigrasp/app/flags.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace antigrasp {
 namespace {
@@ -33,9 +34,12 @@ OptionFlags::OptionFlags(CLI::App* command, const OptionTable& table, const std:
     const auto given = given_;
     const std::string& key = option.key;
     if (std::holds_alternative<bool*>(option.target)) {
+      const std::string flag = FlagOf(key);
       command
-          ->add_flag_callback(
-              FlagOf(key), [given, key] { (*given)[key] = "true"; }, option.help)
+          ->add_flag_function(
+              flag + ",!--no-" + flag.substr(2),
+              [given, key](std::int64_t count) { (*given)[key] = count > 0 ? "true" : "false"; },
+              option.help)
           ->group(group);
       continue;
     }

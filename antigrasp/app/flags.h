@@ -10,7 +10,7 @@
 namespace antigrasp {
 
 // The options of a table as flags of a command: "metric.num_draws" is --num-draws, help and default
-// from the table; a boolean needs no value.
+// from the table; a boolean is --name or --no-name.
 class OptionFlags {
  public:
   OptionFlags(CLI::App* command, const OptionTable& table, const std::string& group);
