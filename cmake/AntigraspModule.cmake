@@ -7,7 +7,9 @@ function(antigrasp_module name)
   add_library(antigrasp::${name} ALIAS antigrasp_${name})
   target_include_directories(antigrasp_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                                       $<INSTALL_INTERFACE:include>)
-  target_link_libraries(antigrasp_${name} PUBLIC ${ARG_PUBLIC} PRIVATE antigrasp_options ${ARG_PRIVATE})
+  target_link_libraries(antigrasp_${name} PUBLIC ${ARG_PUBLIC}
+                        PRIVATE $<BUILD_INTERFACE:antigrasp_options> ${ARG_PRIVATE})
+  set_target_properties(antigrasp_${name} PROPERTIES EXPORT_NAME ${name})
   target_compile_features(antigrasp_${name} PUBLIC cxx_std_20)
 endfunction()
 
