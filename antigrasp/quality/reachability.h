@@ -21,10 +21,10 @@ namespace antigrasp {
 // is free most often; the others follow in the order 1, -1, 2, -2, ...
 //
 // A tree of Eigen's (KdBVH) over the faces and an exact box-triangle test: 0.6 ms to build and 0.3
-// ms for 100 grasps on 3,200 faces, one thread. The same 870 box queries an object (20 intersected
-// cylinders of 3,178 faces, 120 grasps each), build + queries: 0.6 + 0.8 ms; FCL's OBB tree 11
-// + 2.7 ms, its OBBRSS tree 15 + 6.2 ms; CGAL's AABB tree, asked with the boxes' faces, 1.0 + 6.8
-// ms; no tree 27 ms.
+// ms for 100 grasps on 3,200 faces, one thread. The same 870 box queries per object (20 intersected
+// cylinders, 120 grasps each), build + queries in ms:
+//   this 0.6 + 0.8, CGAL's AABB tree with the boxes' faces 1.0 + 6.8, no tree 27,
+//   FCL 0.7's OBB tree 11 + 2.7, its OBBRSS tree 15 + 6.2
 class GripperCollision {
  public:
   // The mesh and its scene must outlive this. Vertices finite, indices in range, metres.
