@@ -11,6 +11,7 @@ void AddTrainCommand(CLI::App* app);
 void AddSampleCommand(CLI::App* app);
 void AddRemeshCommand(CLI::App* app);
 void AddEvaluateCommand(CLI::App* app);
+void AddQualityCommand(CLI::App* app);
 void AddExportCommand(CLI::App* app);
 void AddInfoCommand(CLI::App* app);
 

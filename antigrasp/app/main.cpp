@@ -53,6 +53,7 @@ int Run(int argc, char** argv) {
   AddSampleCommand(&app);
   AddRemeshCommand(&app);
   AddEvaluateCommand(&app);
+  AddQualityCommand(&app);
   AddExportCommand(&app);
   AddInfoCommand(&app);
   AddHelpCommand(&app, &topic);

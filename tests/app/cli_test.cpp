@@ -62,7 +62,7 @@ TEST(Cli, HelpNamesEveryCommandAndEveryCommandHasHelp) {
   const Outcome help = Antigrasp("help");
   EXPECT_EQ(help.code, 0);
   for (const char* command :
-       {"dataset", "train", "sample", "remesh", "evaluate", "export", "info"}) {
+       {"dataset", "train", "sample", "remesh", "evaluate", "quality", "export", "info"}) {
     EXPECT_NE(help.text.find(command), std::string::npos) << command;
     const Outcome own = Antigrasp(std::string("help ") + command);
     EXPECT_EQ(own.code, 0) << command;
@@ -95,6 +95,9 @@ TEST(Cli, RefusesBadInputInOneLineAndWritesNothing) {
   ExpectRefused("evaluate " + dir + "not.h5", "not.h5");
   ExpectRefused("evaluate " + dir + "missing.stl", "missing.stl");
   ExpectRefused("evaluate " + dir + "none --friction -1", "metric.friction");
+  ExpectRefused("evaluate " + dir + "none --preset eggs", "one of default, dexnet, egad");
+  ExpectRefused("quality " + dir + "none.csv", "no such file");
+  ExpectRefused("quality " + dir + "none.csv --torsion rubber", "contact.torsion");
   ExpectRefused("export " + dir + "not.h5 --out " + dir + "e", "not.h5");
   ExpectRefused("info " + dir + "not.h5", "not.h5");
   ExpectRefused("info " + dir, "not the folder of a run");
@@ -136,6 +139,74 @@ TEST(Cli, EvaluateWritesARowPerObjectAndNamesTheBadOnes) {
   EXPECT_NE(csv.find("noise.off,not readable,0,,"), std::string::npos) << csv;
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
   EXPECT_NE(ReadFile(folder / "s.csv.metric.toml").find("friction = 0.5"), std::string::npos);
+}
+
+TEST(Cli, EgadPresetAddsItsScoreAndOtherFlagsWinOverThePreset) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteMesh(folder / "box.stl", shapes::Box(Eigen::Vector3d(1.0, 1.0, 1.0)));
+  const std::string evaluate = "evaluate " + dir + "box.stl --out " + dir;
+  ASSERT_EQ(Antigrasp(evaluate + "egad.csv --preset egad --noise default --num-grasps 30").code, 0);
+  const std::string constants = ReadFile(folder / "egad.csv.metric.toml");
+  for (const char* line : {"torque_scale = 100", "num_draws = 1", "num_grasps = 30",
+                           "object_translation_std = 0.0025"}) {
+    EXPECT_NE(constants.find(line), std::string::npos) << line << "\n" << constants;
+  }
+  ASSERT_EQ(Antigrasp(evaluate + "egad.csv --preset egad").code, 0);
+  const std::string csv = ReadFile(folder / "egad.csv");
+  ASSERT_NE(csv.find(",seconds,egad\n"), std::string::npos) << csv;
+  const std::string row = csv.substr(csv.find('\n') + 1);
+  ASSERT_TRUE(row.starts_with("box.stl,ok,100,")) << row;
+  const double graspability = std::stod(row.substr(std::string("box.stl,ok,100,").size()));
+  EXPECT_GT(graspability, 0.002);  // of at most 0.003927, the torsion cap
+  EXPECT_LT(graspability, 0.003927);
+  EXPECT_NEAR(std::stod(row.substr(row.rfind(',') + 1)), (graspability - 0.0005) / 0.0035 * 100.0,
+              1e-9);
+  ASSERT_EQ(Antigrasp(evaluate + "plain.csv --num-grasps 10").code, 0);
+  EXPECT_EQ(ReadFile(folder / "plain.csv").find("egad"), std::string::npos);
+}
+
+TEST(Cli, QualityScoresATableOfContactsAlikeForAnyNumberOfThreads) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  const std::string quality = "quality " ANTIGRASP_TEST_DATA "/quality/contacts.csv --out " + dir;
+  const Outcome outcome = Antigrasp(quality + "1.csv --threads 1");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("500 grasps: 366 with epsilon > 0, 371 in"), std::string::npos)
+      << outcome.text;
+  EXPECT_NE(outcome.text.find("102 of 500 wrenches resisted"), std::string::npos) << outcome.text;
+  ASSERT_EQ(Antigrasp(quality + "2.csv --threads 2").code, 0);
+  const std::string csv = ReadFile(folder / "1.csv");
+  EXPECT_EQ(csv, ReadFile(folder / "2.csv"));
+  EXPECT_TRUE(csv.starts_with(
+      "id,epsilon,force_closure,force_closure_signed,wrench_resisted,wrench_resistance\np0000,"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 501);
+  EXPECT_NE(ReadFile(folder / "1.csv.quality.toml").find("regularizer = 1e-10"), std::string::npos);
+  ASSERT_EQ(Antigrasp(quality + "hard.csv --torsion none --oppose-target").code, 0);
+  EXPECT_NE(ReadFile(folder / "hard.csv.quality.toml").find("oppose_target = true"),
+            std::string::npos);
+}
+
+TEST(Cli, QualityNamesABadRowAndWritesNothing) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  const std::string header = "p1x,p1y,p1z,n1x,n1y,n1z,p2x,p2y,p2z,n2x,n2y,n2z,comx,comy,comz\n";
+  const std::string good = "-0.02,0,0,-1,0,0,0.02,0,0,1,0,0,0,0,0\n";
+  folder.Write("bad.csv", header + good + "-0.02,0,0,-1,0,0,0.02,oops,0,1,0,0,0,0,0\n");
+  folder.Write("short.csv", header + good + "1,2\n");
+  folder.Write("columns.csv", "id,p1x\na,1\n");
+  folder.Write("good.csv", header + good);
+  const int before = FilesIn(folder.path());
+  const std::string out = " --out " + dir + "out.csv";
+  ExpectRefused("quality " + dir + "bad.csv" + out, "bad.csv:3): expected a finite number");
+  ExpectRefused("quality " + dir + "short.csv" + out, "short.csv:3): expected 15 fields");
+  ExpectRefused("quality " + dir + "columns.csv" + out, "no column p1y p1z n1x");
+  ExpectRefused("quality " + dir + "good.csv --out " + dir + "no/out.csv", "folder");
+  ExpectRefused("quality " + dir + "good.csv --friction 11" + out, "contact.friction = 11");
+  EXPECT_EQ(FilesIn(folder.path()), before);
+  const Outcome printed = Antigrasp("quality " + dir + "good.csv");
+  EXPECT_EQ(printed.code, 0);
+  EXPECT_NE(printed.text.find("\n1,0.03909"), std::string::npos) << printed.text;
 }
 
 TEST(Cli, ExportsSolidsInMillimetresAndLeavesTheRestOut) {

@@ -1,37 +1,27 @@
 #include "tests/quality/reference_cases.h"
 
 #include <Eigen/Geometry>
-#include <cstdlib>
-#include <fstream>
-#include <map>
-#include <sstream>
-#include <stdexcept>
+
+#include "antigrasp/core/csv_reader.h"
 
 namespace antigrasp {
 namespace {
 
-std::vector<std::string> Split(const std::string& line) {
-  std::vector<std::string> fields;
-  std::stringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
-  return fields;
-}
-
 class Row {
  public:
-  Row(const std::vector<std::string>& names, const std::vector<std::string>& fields) {
-    for (std::size_t i = 0; i < names.size(); ++i) fields_[names[i]] = fields.at(i);
+  explicit Row(const CsvReader& csv) : csv_(csv) {}
+  const std::string& Text(const std::string& name) const {
+    return csv_.Field(csv_.Column(name).value());
   }
-  const std::string& Text(const std::string& name) const { return fields_.at(name); }
   double Number(const std::string& name) const {
-    return std::strtod(Text(name).c_str(), nullptr);  // reads nan
+    return csv_.Number(csv_.Column(name).value()).value();
   }
   Eigen::Vector3d Vector(const std::string& prefix) const {
     return {Number(prefix + "x"), Number(prefix + "y"), Number(prefix + "z")};
   }
 
  private:
-  std::map<std::string, std::string> fields_;
+  const CsvReader& csv_;
 };
 
 ReferenceCase Parse(const Row& row) {
@@ -69,12 +59,9 @@ ReferenceCase Parse(const Row& row) {
 }  // namespace
 
 std::vector<ReferenceCase> ReadReferenceCases() {
-  std::ifstream file(ANTIGRASP_TEST_DATA "/quality/contacts.csv");
-  std::string line;
-  if (!std::getline(file, line)) throw std::runtime_error("contacts.csv is missing");
-  const std::vector<std::string> names = Split(line);
+  CsvReader csv(ANTIGRASP_TEST_DATA "/quality/contacts.csv");
   std::vector<ReferenceCase> cases;
-  while (std::getline(file, line)) cases.push_back(Parse(Row(names, Split(line))));
+  while (csv.Next()) cases.push_back(Parse(Row(csv)));
   return cases;
 }
 
