@@ -13,8 +13,12 @@ TEST(RunConfig, ReadsItsOwnDump) {
   config.cem.keep = 7;
   config.prior.kind = "bottles";
   config.metric.friction = 1.0 / 3;
+  config.metric.collision = "jaws";
+  config.metric.gripper.finger_width = 0.015;
   const std::string toml = ToToml(config);
   EXPECT_EQ(ToToml(FromToml(toml, "x")), toml);
+  EXPECT_NE(toml.find("[gripper]"), std::string::npos);
+  EXPECT_EQ(FromToml(toml, "x").metric.gripper.finger_width, 0.015);
 }
 
 TEST(RunConfig, HoldsThePapersNumbersByDefault) {
