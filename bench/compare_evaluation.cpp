@@ -143,6 +143,30 @@ void PrintShares(const std::vector<TriangleMesh>& meshes, const MetricOptions& o
               seconds[0] / (seconds[1] + seconds[2]));
 }
 
+// Adaptive draws: the time saved, and how far the answers are from full sampling's.
+void CompareAdaptive(const std::vector<TriangleMesh>& meshes, const MetricOptions& full,
+                     double* sink) {
+  MetricOptions adaptive = full;
+  adaptive.adaptive = true;
+  const auto run = [&](const MetricOptions& options) {
+    return [&] { *sink += EvaluateAll(meshes, options, 1, 0, 1).front().value; };
+  };
+  const std::vector<double> seconds =
+      MedianSeconds({{"full", run(full)}, {"adaptive", run(adaptive)}}, 3);
+  PrintRatio("adaptive_draws_vs_full", seconds[0] / seconds[1]);
+  const auto a = EvaluateAll(meshes, full, 1), b = EvaluateAll(meshes, adaptive, 1);
+  int inside = 0, equal = 0;
+  double draws = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    inside += b[i].value >= a[i].ci_low && b[i].value <= a[i].ci_high;
+    equal += b[i].value == a[i].value;
+    for (const ScoredGrasp& grasp : b[i].grasps) draws += grasp.draws;
+    all += static_cast<double>(b[i].grasps.size()) * full.num_draws;
+  }
+  std::printf("adaptive: %.0f %% of the draws; %d of %zu values equal, %d within the interval\n",
+              100 * draws / all, equal, a.size(), inside);
+}
+
 void ComparePeer(const TriangleMesh& unit_mesh, const MetricOptions& options, double* sink) {
   const Recorded r = Record(unit_mesh, options);
   const auto ours = [&] {
@@ -204,6 +228,7 @@ void CompareEvaluation() {
   PrintShares(meshes, options, &sink);
   CompareRays(meshes[0], options, &sink);
   ComparePeer(meshes[0], options, &sink);
+  CompareAdaptive(meshes, options, &sink);
   CompareThreads(meshes, options, &sink);
 }
 

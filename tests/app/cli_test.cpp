@@ -120,6 +120,28 @@ TEST(Cli, ScoresAreEqualForAnyNumberOfThreadsAndDifferForAnotherSeed) {
   EXPECT_NE(ReadFile(dir + "1.csv"), ReadFile(dir + "3.csv"));
 }
 
+TEST(Cli, EvaluatePairsChangedObjectsWithTheirOriginalsUnderEqualRandomNumbers) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  for (const char* set : {"before", "after"}) {
+    fs::create_directory(folder / set);
+    WriteMesh(folder / set / "ball.stl", shapes::Sphere(1.0, 3));
+    WriteMesh(folder / set / "same.stl", shapes::Cylinder(1.0, 3.0, 24));
+  }
+  // A tetrahedron has no opposite sides: it is harder to hold than a ball.
+  WriteMesh(folder / "after/ball.obj", shapes::Tetrahedron());
+  fs::remove(folder / "after/ball.stl");
+  const Outcome outcome = Antigrasp("evaluate " + dir + "after --baseline " + dir +
+                                    "before --num-grasps 20 --out " + dir + "s.csv");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("paired difference -"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("candidate grasps"), std::string::npos) << outcome.text;
+  const std::string csv = ReadFile(folder / "s.csv");
+  EXPECT_NE(csv.find("seconds,baseline,difference\n"), std::string::npos) << csv;
+  EXPECT_TRUE(csv.ends_with(",0\n")) << csv;  // same.stl: not a draw differs
+  ExpectRefused("evaluate " + dir + "before --baseline " + dir + "before/ball.stl", "same");
+}
+
 TEST(Cli, EvaluateWritesARowPerObjectAndNamesTheBadOnes) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/";

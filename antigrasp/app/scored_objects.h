@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "antigrasp/app/input_objects.h"
+#include "antigrasp/quality/graspability.h"
+
+namespace antigrasp {
+
+// An object of the command line with its score; not evaluable when the object is not usable.
+struct ScoredObject {
+  InputObject object;
+  Graspability score;
+  std::string Status() const;
+  double Value() const;  // the graspability, NaN when there is none
+};
+
+// Object i draws from the stream of number i. Shows progress.
+std::vector<ScoredObject> ScoreObjects(const std::vector<std::string>& inputs,
+                                       const MetricOptions& metric, std::uint64_t seed,
+                                       int threads);
+
+// The changed objects' originals, in the order of `objects`: alone they pair up as they are, else
+// by name without the extension. Each is scored with its partner's random numbers.
+// InputError for an object without an original or with several.
+std::vector<ScoredObject> ScoreBaselines(const std::vector<std::string>& inputs,
+                                         const std::vector<ScoredObject>& objects,
+                                         const MetricOptions& metric, std::uint64_t seed,
+                                         int threads);
+
+struct ScoresCsvColumns {
+  bool egad = false;                                     // EGAD's score of the same graspability
+  const std::vector<ScoredObject>* baselines = nullptr;  // adds baseline and difference
+};
+std::string ScoresCsv(const std::vector<ScoredObject>& scored, const ScoresCsvColumns& columns);
+std::string GraspsCsv(const std::vector<ScoredObject>& scored);
+
+// "12,345 candidate grasps, 48 % kept; 20 % with nothing to close on, ...".
+std::string AcceptanceLine(const std::vector<ScoredObject>& scored);
+
+}  // namespace antigrasp
