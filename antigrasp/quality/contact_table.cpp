@@ -198,12 +198,15 @@ ContactRowQuality EvaluateContacts(const ContactRow& row, const WrenchResistance
 
 void Bind(OptionTable* table, ContactTableOptions* options) {
   ContactTableOptions& o = *options;
-  table->Add("contact.friction", &o.friction, 0.0, 10.0, "friction coefficient");
-  table->Add("contact.cone_edges", &o.cone_edges, 3, 64, "edges of the friction pyramid");
+  table->Add("contact.friction", &o.friction, 0.0, 10.0,
+             "friction coefficient, without a column friction_coef");
+  table->Add("contact.cone_edges", &o.cone_edges, 3, 64,
+             "edges of the friction pyramid, without a column num_cone_faces");
   table->Add("contact.finger_radius", &o.finger_radius, 0.0, 1e9,
-             "soft finger contact radius, unit of length");
-  table->Add("contact.torque_scale", &o.torque_scale, 1e-12, 1e12,
-             "weight of torques against forces, 1 / unit of length");
+             "soft finger contact radius, unit of length, without a column finger_radius");
+  table->Add(
+      "contact.torque_scale", &o.torque_scale, 1e-12, 1e12,
+      "weight of torques against forces, 1 / unit of length, without a column torque_scaling");
   table->Add("contact.torsion", &o.torsion, {"none", "dexnet", "uniform_pressure"},
              "torsion of a contact: none, dexnet (pi r^2 mu) or uniform_pressure (2/3 r mu)");
   Bind(table, &o.wrench);

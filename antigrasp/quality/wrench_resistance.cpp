@@ -49,7 +49,7 @@ WrenchResistance ResistWrench(const std::array<Contact, 2>& contacts, const Eige
 void Bind(OptionTable* table, WrenchResistanceOptions* options) {
   WrenchResistanceOptions& o = *options;
   table->Add("wrench.force_limit", &o.force_limit, 1e-9, 1e9,
-             "largest sum of a contact's force coefficients, N");
+             "largest sum of a contact's force coefficients, N, without a column force_limit");
   table->Add("wrench.tolerance", &o.tolerance, 0.0, 1e9,
              "a wrench is resisted when the squared rest is below");
   table->Add("wrench.regularizer", &o.regularizer, 1e-14, 1.0,
