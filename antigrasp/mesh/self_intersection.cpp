@@ -1,4 +1,5 @@
-// The only file that sees CGAL: its headers cost far more to compile than everything else here.
+// CGAL's headers cost far more to compile than everything else here: they are seen by this file and
+// convex_hull.cpp alone.
 #include "antigrasp/mesh/self_intersection.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
