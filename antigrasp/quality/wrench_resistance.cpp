@@ -1,6 +1,7 @@
 #include "antigrasp/quality/wrench_resistance.h"
 
-#include "antigrasp/core/check.h"
+#include <vector>
+
 #include "antigrasp/quality/limited_least_squares.h"
 
 namespace antigrasp {
