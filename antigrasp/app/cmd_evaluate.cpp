@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "antigrasp/app/commands.h"
+#include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
 #include "antigrasp/app/scored_objects.h"
 #include "antigrasp/core/atomic_file.h"
@@ -71,13 +72,19 @@ void Evaluate(const EvaluateFlags& flags, const MetricFlags& metric_flags) {
   for (const std::string& out : {flags.out, flags.grasps}) {
     if (!out.empty()) const AtomicFile probe(out);  // refuses an unwritable target before the work
   }
+  ConsoleObserver console;
+  std::vector<InputObject> objects =
+      LoadObjects(flags.inputs, flags.threads, console.Phase("reading"));
+  std::vector<InputObject> originals;
+  if (!flags.baseline.empty()) originals = LoadBaselines(flags.baseline, objects, flags.threads);
   const std::vector<ScoredObject> scored =
-      ScoreObjects(flags.inputs, metric, flags.seed, flags.threads);
+      ScoreObjects(std::move(objects), metric, flags.seed, flags.threads, "scoring");
   std::vector<ScoredObject> baselines;
   ScoresCsvColumns columns;
   columns.egad = metric_flags.preset() == "egad";
   if (!flags.baseline.empty()) {
-    baselines = ScoreBaselines(flags.baseline, scored, metric, flags.seed, flags.threads);
+    baselines = ScoreObjects(std::move(originals), metric, flags.seed, flags.threads,
+                             "scoring the baseline");
     columns.baselines = &baselines;
   }
   for (const ScoredObject& item : scored) {

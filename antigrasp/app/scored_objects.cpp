@@ -17,31 +17,15 @@ std::string NumberField(double value) {
   return "," + (std::isnan(value) ? std::string() : FormatDouble(value));
 }
 
-std::vector<ScoredObject> Score(std::vector<InputObject> objects, const MetricOptions& metric,
-                                std::uint64_t seed, int threads, const ProgressFn& progress) {
-  std::vector<ScoredObject> scored(objects.size());
-  ParallelFor(
-      static_cast<std::int64_t>(objects.size()), threads,
-      [&](std::int64_t i) {
-        ScoredObject& item = scored[static_cast<std::size_t>(i)];
-        item.object = std::move(objects[static_cast<std::size_t>(i)]);
-        if (!item.object.ok()) return;
-        item.score =
-            EvaluateGraspability(item.object.mesh, metric, seed, static_cast<std::uint64_t>(i));
-      },
-      progress);
-  return scored;
-}
-
 // The one original of this name.
-InputObject TakeByName(const std::string& name, std::vector<InputObject>* originals) {
+InputObject ByName(const std::string& name, const std::vector<InputObject>& originals) {
   const auto is_it = [&](const InputObject& o) { return FileNameOf(o.name) == FileNameOf(name); };
-  const auto count = std::count_if(originals->begin(), originals->end(), is_it);
+  const auto count = std::count_if(originals.begin(), originals.end(), is_it);
   if (count != 1) {
     throw InputError(std::to_string(count) + " originals", "--baseline for " + name,
                      "exactly one object named " + FileNameOf(name));
   }
-  return *std::find_if(originals->begin(), originals->end(), is_it);
+  return *std::find_if(originals.begin(), originals.end(), is_it);
 }
 
 }  // namespace
@@ -56,28 +40,32 @@ double ScoredObject::Value() const {
              : score.value;
 }
 
-std::vector<ScoredObject> ScoreObjects(const std::vector<std::string>& inputs,
-                                       const MetricOptions& metric, std::uint64_t seed,
-                                       int threads) {
-  ConsoleObserver console;
-  auto objects = LoadObjects(inputs, threads, console.Phase("reading"));
-  return Score(std::move(objects), metric, seed, threads, console.Phase("scoring"));
-}
-
-std::vector<ScoredObject> ScoreBaselines(const std::vector<std::string>& inputs,
-                                         const std::vector<ScoredObject>& objects,
-                                         const MetricOptions& metric, std::uint64_t seed,
-                                         int threads) {
+std::vector<InputObject> LoadBaselines(const std::vector<std::string>& inputs,
+                                       const std::vector<InputObject>& objects, int threads) {
   ConsoleObserver console;
   auto originals = LoadObjects(inputs, threads, console.Phase("reading the baseline"));
-  if (objects.size() != 1 || originals.size() != 1) {
-    std::vector<InputObject> in_order;
-    for (const ScoredObject& item : objects) {
-      in_order.push_back(TakeByName(item.object.name, &originals));
-    }
-    originals = std::move(in_order);
-  }
-  return Score(std::move(originals), metric, seed, threads, console.Phase("scoring the baseline"));
+  if (objects.size() == 1 && originals.size() == 1) return originals;
+  std::vector<InputObject> in_order;
+  for (const InputObject& object : objects) in_order.push_back(ByName(object.name, originals));
+  return in_order;
+}
+
+std::vector<ScoredObject> ScoreObjects(std::vector<InputObject> objects,
+                                       const MetricOptions& metric, std::uint64_t seed, int threads,
+                                       const std::string& phase) {
+  ConsoleObserver console;
+  std::vector<ScoredObject> scored(objects.size());
+  ParallelFor(
+      static_cast<std::int64_t>(objects.size()), threads,
+      [&](std::int64_t i) {
+        ScoredObject& item = scored[static_cast<std::size_t>(i)];
+        item.object = std::move(objects[static_cast<std::size_t>(i)]);
+        if (!item.object.ok()) return;
+        item.score =
+            EvaluateGraspability(item.object.mesh, metric, seed, static_cast<std::uint64_t>(i));
+      },
+      console.Phase(phase));
+  return scored;
 }
 
 std::string ScoresCsv(const std::vector<ScoredObject>& scored, const ScoresCsvColumns& columns) {

@@ -16,18 +16,15 @@ struct ScoredObject {
   double Value() const;  // the graspability, NaN when there is none
 };
 
-// Object i draws from the stream of number i. Shows progress.
-std::vector<ScoredObject> ScoreObjects(const std::vector<std::string>& inputs,
-                                       const MetricOptions& metric, std::uint64_t seed,
-                                       int threads);
-
 // The changed objects' originals, in the order of `objects`: alone they pair up as they are, else
-// by name without the extension. Each is scored with its partner's random numbers.
-// InputError for an object without an original or with several.
-std::vector<ScoredObject> ScoreBaselines(const std::vector<std::string>& inputs,
-                                         const std::vector<ScoredObject>& objects,
-                                         const MetricOptions& metric, std::uint64_t seed,
-                                         int threads);
+// by name without the extension. InputError for an object without an original or with several.
+std::vector<InputObject> LoadBaselines(const std::vector<std::string>& inputs,
+                                       const std::vector<InputObject>& objects, int threads);
+
+// Object i draws from the stream of number i: equal places, equal random numbers. Shows progress.
+std::vector<ScoredObject> ScoreObjects(std::vector<InputObject> objects,
+                                       const MetricOptions& metric, std::uint64_t seed, int threads,
+                                       const std::string& phase);
 
 struct ScoresCsvColumns {
   bool egad = false;                                     // EGAD's score of the same graspability

@@ -138,7 +138,13 @@ TEST(Cli, EvaluatePairsChangedObjectsWithTheirOriginalsUnderEqualRandomNumbers) 
   const std::string csv = ReadFile(folder / "s.csv");
   EXPECT_NE(csv.find("seconds,baseline,difference\n"), std::string::npos) << csv;
   EXPECT_TRUE(csv.ends_with(",0\n")) << csv;  // same.stl: not a draw differs
-  ExpectRefused("evaluate " + dir + "before --baseline " + dir + "before/ball.stl", "same");
+  const Outcome unpaired =
+      Antigrasp("evaluate " + dir + "before --baseline " + dir + "before/ball.stl");
+  EXPECT_EQ(unpaired.code, 2);
+  EXPECT_NE(unpaired.text.find("antigrasp: 0 originals (--baseline for same.stl): expected exactly "
+                               "one object named same\n"),
+            std::string::npos)
+      << unpaired.text;
 }
 
 TEST(Cli, EvaluateWritesARowPerObjectAndNamesTheBadOnes) {
