@@ -1,5 +1,6 @@
 #include <spdlog/spdlog.h>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -40,11 +41,18 @@ void WriteScores(const EvaluateFlags& flags, const MetricOptions& metric, const 
                   "seed = " + std::to_string(flags.seed) + "\n\n" + table.Dump());
 }
 
+// " +-0.00012 (95 %)"; nothing for a single object, which says nothing about the spread.
+std::string HalfWidth(const char* format, double half_width) {
+  char text[64] = "";
+  if (std::isfinite(half_width)) std::snprintf(text, sizeof text, format, half_width);
+  return text;
+}
+
 void PrintSummary(const std::vector<ScoredObject>& scored) {
   const MeanInterval mean = MeanWithInterval(Values(scored));
-  std::fprintf(stderr, "%d objects scored, %d not: mean graspability %.5f +-%.5f (95 %%)\n",
-               mean.count, static_cast<int>(scored.size()) - mean.count, mean.mean,
-               mean.half_width);
+  std::fprintf(stderr, "%d objects scored, %d not: mean graspability %.5f%s\n", mean.count,
+               static_cast<int>(scored.size()) - mean.count, mean.mean,
+               HalfWidth(" +-%.5f (95 %%)", mean.half_width).c_str());
   std::fprintf(stderr, "%s\n", AcceptanceLine(scored).c_str());
 }
 
@@ -60,11 +68,9 @@ void PrintPairedDifference(const std::vector<ScoredObject>& scored,
   const MeanInterval mean = MeanWithInterval(difference);
   const double baseline = MeanWithInterval(of_pairs).mean;
   std::fprintf(
-      stderr,
-      "paired difference %+.5f +-%.5f (95 %%, %d pairs), %+.1f +-%.1f %% of the baseline's "
-      "%.5f\n",
-      mean.mean, mean.half_width, mean.count, 100.0 * mean.mean / baseline,
-      100.0 * mean.half_width / baseline, baseline);
+      stderr, "paired difference %+.5f%s, %+.1f%s %% of the baseline's %.5f, %d pairs\n", mean.mean,
+      HalfWidth(" +-%.5f (95 %%)", mean.half_width).c_str(), 100.0 * mean.mean / baseline,
+      HalfWidth(" +-%.1f", 100.0 * mean.half_width / baseline).c_str(), baseline, mean.count);
 }
 
 void Evaluate(const EvaluateFlags& flags, const MetricFlags& metric_flags) {
