@@ -1,0 +1,215 @@
+#include "antigrasp/perturb/face_pairs.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "antigrasp/core/check.h"
+#include "antigrasp/perturb/cone.h"
+
+namespace antigrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Nearer than this share of the faces' size, p and q are one point (a shared corner, rounded).
+constexpr double kSamePoint = 1e-12;
+// Below this share of its squared size a face's area is rounding noise.
+constexpr double kNoArea = 1e-12;
+
+// The directions that both contacts hold: within psi of both axes.
+struct Lens {
+  Lens(const FaceShape& first, const FaceShape& second, double psi)
+      : inward(-first.normal, psi), outward(second.normal, psi) {}
+  bool Contains(const Vector3d& direction) const {
+    return inward.Contains(direction) && outward.Contains(direction);
+  }
+  Cone inward;   // at the first contact
+  Cone outward;  // at the second
+};
+
+// The part of start + s * step, s in [0, 1], in the lens. Where a segment begins or ends in the
+// origin (a shared corner) the origin itself does not count.
+Range ClipToLens(const Vector3d& start, const Vector3d& step, const Lens& lens) {
+  constexpr Range kNothing{1.0, 0.0};
+  if (start.isZero(0.0)) return lens.Contains(step) ? Range{0.0, 1.0} : kNothing;
+  if ((start + step).isZero(0.0)) return lens.Contains(start) ? Range{0.0, 1.0} : kNothing;
+  const Range range = ClipToCone(start, step, lens.inward, {0.0, 1.0});
+  return range.empty() ? range : ClipToCone(start, step, lens.outward, range);
+}
+
+// Calls visit(start, step) for the 18 segments that hold the edges of D = second - first, until it
+// returns true.
+template <typename Visit>
+bool AnySegment(const FaceShape& first, const FaceShape& second, const Visit& visit) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3d edge_of_first = first.corner[(i + 1) % 3] - first.corner[i];
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Vector3d start = second.corner[j] - first.corner[i];
+      if (visit(start, Vector3d(second.corner[(j + 1) % 3] - second.corner[j]))) return true;
+      if (visit(start, Vector3d(-edge_of_first))) return true;
+    }
+  }
+  return false;
+}
+
+// Where the ray from the origin along `direction`, which enters the first face from outside, is in
+// D: the second face is clipped to the prism of the first one along that direction.
+Range AlongRay(const FaceShape& first, const FaceShape& second, const Vector3d& direction) {
+  // Six corners at most, a few more when rounding makes the outline wavy.
+  std::array<Vector3d, 9> polygon{second.corner[0], second.corner[1], second.corner[2]};
+  std::size_t count = 3;
+  for (std::size_t i = 0; i < 3 && count > 0; ++i) {
+    const Vector3d side = (first.corner[(i + 1) % 3] - first.corner[i]).cross(direction);
+    std::array<Vector3d, 9> kept;
+    std::size_t kept_count = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vector3d& from = polygon[k];
+      const Vector3d& to = polygon[(k + 1) % count];
+      const double a = side.dot(from - first.corner[i]), b = side.dot(to - first.corner[i]);
+      if (a >= 0.0) kept[kept_count++] = from;
+      if ((a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)) {
+        kept[kept_count++] = from + a / (a - b) * (to - from);
+      }
+    }
+    polygon = kept;
+    count = kept_count;
+  }
+  Range range{kInfinity, -kInfinity};
+  for (std::size_t k = 0; k < count; ++k) {
+    const double at = first.normal.dot(polygon[k] - first.corner[0]) / first.normal.dot(direction);
+    range = {std::min(range.low, at), std::max(range.high, at)};
+  }
+  return range;
+}
+
+// Directions of the lens that may be nearest to the unit vector `u`, the nearest among them.
+Vector3d NearestInLens(const Lens& lens, const Vector3d& u, double psi) {
+  if (lens.Contains(u)) return u;
+  Vector3d nearest = Vector3d::Zero();
+  double best = -2.0;
+  const auto offer = [&](const Vector3d& direction) {
+    if (direction.dot(u) <= best || !lens.Contains(direction)) return;
+    best = direction.dot(u);
+    nearest = direction;
+  };
+  for (const Cone* cone : {&lens.inward, &lens.outward}) {
+    const Vector3d& axis = cone->axis;
+    const Vector3d towards = u - u.dot(axis) * axis;
+    if (towards.norm() > 1e-12) {
+      offer(std::cos(psi) * axis + std::sin(psi) * towards.normalized());
+    }
+  }
+  const Vector3d middle = (lens.inward.axis + lens.outward.axis).normalized();
+  const Vector3d across = lens.inward.axis.cross(lens.outward.axis);
+  const double along = std::min(1.0, std::cos(psi) / middle.dot(lens.inward.axis));
+  if (across.norm() > 1e-12) {
+    const Vector3d corner = std::sqrt(1.0 - along * along) * across.normalized();
+    offer(along * middle + corner);
+    offer(along * middle - corner);
+  }
+  return nearest;
+}
+
+// The facet normals of D, up to sign and length.
+std::array<Vector3d, 11> FacetNormals(const FaceShape& first, const FaceShape& second) {
+  std::array<Vector3d, 11> normals{first.normal, second.normal};
+  std::size_t next = 2;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      normals[next++] = (first.corner[(i + 1) % 3] - first.corner[i])
+                            .cross(second.corner[(j + 1) % 3] - second.corner[j]);
+    }
+  }
+  return normals;
+}
+
+}  // namespace
+
+double AntipodalityAngle(const Vector3d& normal_i, const Vector3d& normal_j) {
+  // Of the half-angle formulas the one that is exact near 0, where arccos is not.
+  return 2.0 * std::atan2((normal_i + normal_j).norm(), (normal_i - normal_j).norm());
+}
+
+FaceShape::FaceShape(const Vector3d& a, const Vector3d& b, const Vector3d& c) : corner{a, b, c} {
+  center = (a + b + c) / 3.0;
+  const double squared_radius = std::max(
+      {(a - center).squaredNorm(), (b - center).squaredNorm(), (c - center).squaredNorm()});
+  radius = std::sqrt(squared_radius);
+  const Vector3d cross = (b - a).cross(c - a);
+  const double length = cross.norm();
+  normal = length > kNoArea * squared_radius ? Vector3d(cross / length) : Vector3d::Zero();
+}
+
+FaceShape::FaceShape(const TriangleMesh& mesh, std::size_t face)
+    : FaceShape(mesh.vertices[mesh.faces[face][0]], mesh.vertices[mesh.faces[face][1]],
+                mesh.vertices[mesh.faces[face][2]]) {}
+
+AntipodalTest::AntipodalTest(const PairLimits& limits)
+    : limits_(limits),
+      cosine_(std::cos(limits.cone_angle)),
+      sine_(std::sin(limits.cone_angle)),
+      cosine_of_double_(std::cos(2.0 * limits.cone_angle) - kConeSlack) {
+  AG_CHECK(limits.cone_angle >= 0.0 && cosine_ > 1e-9, "cone angle in [0, pi / 2)");
+}
+
+bool AntipodalTest::MayMeet(const FaceShape& first, const FaceShape& second) const {
+  if (-first.normal.dot(second.normal) < cosine_of_double_) return false;
+  if (first.normal.isZero() || second.normal.isZero()) return false;
+  const Vector3d between = second.center - first.center;
+  const double reach = first.radius + second.radius, squared = between.squaredNorm();
+  if (squared <= reach * reach) return true;
+  // Every q - p is within asin(reach / distance) of the line between the centres.
+  const double distance = std::sqrt(squared), spread = std::sqrt(squared - reach * reach);
+  const double least = cosine_ * spread - sine_ * reach - kConeSlack * distance;
+  return -first.normal.dot(between) >= least && second.normal.dot(between) >= least &&
+         distance - reach <= limits_.max_width;
+}
+
+bool AntipodalTest::Meet(const FaceShape& first, const FaceShape& second) const {
+  const Vector3d middle = (second.normal - first.normal).normalized();
+  const double same_point = kSamePoint * (first.radius + second.radius);
+  if (AlongRay(first, second, middle).high > same_point) return true;
+  const Lens lens(first, second, limits_.cone_angle);
+  return AnySegment(first, second, [&](const Vector3d& start, const Vector3d& step) {
+    return !ClipToLens(start, step, lens).empty();
+  });
+}
+
+bool AntipodalTest::operator()(const FaceShape& first, const FaceShape& second) const {
+  if (!MayMeet(first, second)) return false;
+  const double farthest = (second.center - first.center).norm() + first.radius + second.radius;
+  if (farthest > limits_.max_width) return Width(first, second) <= limits_.max_width;
+  return Meet(first, second);
+}
+
+double AntipodalTest::Width(const FaceShape& first, const FaceShape& second) const {
+  if (-first.normal.dot(second.normal) < cosine_of_double_) return kInfinity;
+  if (first.normal.isZero() || second.normal.isZero()) return kInfinity;
+  const double same_point = kSamePoint * (first.radius + second.radius);
+  const Lens lens(first, second, limits_.cone_angle);
+  double width = kInfinity;
+  AnySegment(first, second, [&](const Vector3d& start, const Vector3d& step) {
+    const Range range = ClipToLens(start, step, lens);
+    if (range.empty()) return false;
+    const double foot = -start.dot(step) / step.squaredNorm();
+    const double at = std::clamp(foot, range.low, range.high);
+    width = std::min(width, (start + at * step).norm());
+    return false;
+  });
+  for (const Vector3d& facet : FacetNormals(first, second)) {
+    const double length = facet.norm();
+    if (length == 0.0) continue;
+    for (const double sign : {1.0, -1.0}) {
+      const Vector3d u = sign / length * facet;
+      const Vector3d direction = NearestInLens(lens, u, limits_.cone_angle);
+      if (direction.dot(u) <= 0.0) continue;
+      const Range along = AlongRay(first, second, direction);
+      if (along.high > same_point) width = std::min(width, std::max(along.low, 0.0));
+    }
+  }
+  return width;
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,224 @@
+// F_a as a whole: two nodes of a tree over the faces at a time.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "antigrasp/perturb/face_pairs.h"
+
+namespace antigrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kPi = std::numbers::pi;
+constexpr std::int32_t kLeafSize = 4;
+// Rounding in the angles of the bounds; what is nearer to the limit is looked at more closely.
+constexpr double kAngleSlack = 1e-7;
+
+double Angle(const Vector3d& unit_a, const Vector3d& unit_b) {
+  return std::acos(std::clamp(unit_a.dot(unit_b), -1.0, 1.0));
+}
+
+struct Node {
+  Vector3d center = Vector3d::Zero();  // of the enclosing ball
+  double radius = 0.0;
+  Vector3d axis = Vector3d::UnitX();  // every normal is within `turn` of it
+  double turn = 0.0;
+  std::int32_t first = 0, count = 0;  // faces in the tree's order
+  std::int32_t left = -1;             // the right child follows it; -1 for a leaf
+};
+
+class PairTree {
+ public:
+  explicit PairTree(const TriangleMesh& mesh) {
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+      const FaceShape shape(mesh, f);
+      if (shape.normal.isZero()) continue;
+      shapes_.push_back(shape);
+      faces_.push_back(static_cast<std::int32_t>(f));
+    }
+    if (shapes_.empty()) return;
+    const BoundingBox box = Bounds(mesh);
+    place_scale_ = 2.0 / std::max(box.Extent().maxCoeff(), 1e-300);
+    nodes_.reserve(shapes_.size());
+    nodes_.emplace_back();
+    Split(0, 0, static_cast<std::int32_t>(shapes_.size()));
+  }
+
+  // Calls block(x, y) for two nodes all of whose pairs are antipodal and pair(i, j) for single
+  // faces (all in the tree's order).
+  template <typename Block, typename Pair>
+  void Visit(const AntipodalTest& test, const Block& block, const Pair& pair) const {
+    if (shapes_.empty()) return;
+    std::vector<std::pair<std::int32_t, std::int32_t>> stack{{0, 0}};
+    while (!stack.empty()) {
+      const auto [x, y] = stack.back();
+      stack.pop_back();
+      const Node &a = nodes_[x], &b = nodes_[y];
+      if (x == y) {
+        if (2.0 * test.cone_angle() + 2.0 * a.turn + kAngleSlack < kPi) continue;  // all alike
+        if (a.left < 0) {
+          VisitLeaves(a, b, test, pair);
+        } else {
+          stack.insert(stack.end(),
+                       {{a.left, a.left}, {a.left + 1, a.left + 1}, {a.left, a.left + 1}});
+        }
+        continue;
+      }
+      const Verdict verdict = Compare(a, b, test);
+      if (verdict == Verdict::kNone) continue;
+      if (verdict == Verdict::kAll) {
+        block(a, b);
+      } else if (a.left < 0 && b.left < 0) {
+        VisitLeaves(a, b, test, pair);
+      } else if (b.left < 0 || (a.left >= 0 && Size(a) > Size(b))) {
+        stack.insert(stack.end(), {{a.left, y}, {a.left + 1, y}});
+      } else {
+        stack.insert(stack.end(), {{x, b.left}, {x, b.left + 1}});
+      }
+    }
+  }
+
+  std::int32_t FaceAt(std::int32_t place) const { return faces_[place]; }
+
+ private:
+  enum class Verdict { kNone, kSome, kAll };
+
+  // What is left undecided grows with the ball and with the spread of the normals.
+  double Size(const Node& node) const { return node.radius * place_scale_ + node.turn; }
+
+  static Verdict Compare(const Node& a, const Node& b, const AntipodalTest& test) {
+    const double psi = test.cone_angle();
+    const double turn = Angle(-a.axis, b.axis);
+    if (turn > 2.0 * psi + a.turn + b.turn + kAngleSlack) return Verdict::kNone;
+    const Vector3d between = b.center - a.center;
+    const double distance = between.norm(), reach = a.radius + b.radius;
+    if (distance <= reach) return Verdict::kSome;
+    if (distance - reach > test.max_width()) return Verdict::kNone;
+    const double spread = std::asin(reach / distance);
+    const double at_a = Angle(between / distance, -a.axis);
+    const double at_b = Angle(between / distance, b.axis);
+    const double most_a = psi + spread + a.turn, most_b = psi + spread + b.turn;
+    if (at_a > most_a + kAngleSlack || at_b > most_b + kAngleSlack) return Verdict::kNone;
+    const bool all = at_a + spread + a.turn + kAngleSlack < psi &&
+                     at_b + spread + b.turn + kAngleSlack < psi &&
+                     distance + reach < test.max_width();
+    return all ? Verdict::kAll : Verdict::kSome;
+  }
+
+  template <typename Pair>
+  void VisitLeaves(const Node& a, const Node& b, const AntipodalTest& test,
+                   const Pair& pair) const {
+    for (std::int32_t i = a.first; i < a.first + a.count; ++i) {
+      for (std::int32_t j = a.first == b.first ? i + 1 : b.first; j < b.first + b.count; ++j) {
+        if (test(shapes_[i], shapes_[j])) pair(i, j);
+      }
+    }
+  }
+
+  Node Bound(std::int32_t first, std::int32_t count) const {
+    Node node;
+    node.first = first;
+    node.count = count;
+    Vector3d min = shapes_[first].center, max = min, normals = Vector3d::Zero();
+    for (std::int32_t i = first; i < first + count; ++i) {
+      for (const Vector3d& corner : shapes_[i].corner) {
+        min = min.cwiseMin(corner);
+        max = max.cwiseMax(corner);
+      }
+      normals += shapes_[i].normal;
+    }
+    node.center = 0.5 * (min + max);
+    node.axis = normals.norm() > 1e-9 ? Vector3d(normals.normalized()) : shapes_[first].normal;
+    for (std::int32_t i = first; i < first + count; ++i) {
+      for (const Vector3d& corner : shapes_[i].corner) {
+        node.radius = std::max(node.radius, (corner - node.center).norm());
+      }
+      node.turn = std::max(node.turn, Angle(node.axis, shapes_[i].normal));
+    }
+    return node;
+  }
+
+  // Halves along the widest of six coordinates, place and normal: a box's sides part first.
+  void Split(std::int32_t index, std::int32_t first, std::int32_t count) {
+    nodes_[index] = Bound(first, count);
+    if (count <= kLeafSize) return;
+    using Key = Eigen::Matrix<double, 6, 1>;
+    const auto key = [&](const FaceShape& shape) {
+      Key k;
+      k << place_scale_ * shape.center, shape.normal;
+      return k;
+    };
+    Key min = key(shapes_[first]), max = min;
+    for (std::int32_t i = first; i < first + count; ++i) {
+      min = min.cwiseMin(key(shapes_[i]));
+      max = max.cwiseMax(key(shapes_[i]));
+    }
+    int axis = 0;
+    (max - min).maxCoeff(&axis);
+    std::vector<std::int32_t> order(static_cast<std::size_t>(count));
+    std::iota(order.begin(), order.end(), first);
+    const std::int32_t half = count / 2;
+    std::nth_element(order.begin(), order.begin() + half, order.end(),
+                     [&](std::int32_t i, std::int32_t j) {
+                       return std::pair(key(shapes_[i])[axis], faces_[i]) <
+                              std::pair(key(shapes_[j])[axis], faces_[j]);
+                     });
+    Reorder(order, first);
+    const auto left = static_cast<std::int32_t>(nodes_.size());
+    nodes_.emplace_back();
+    nodes_.emplace_back();
+    nodes_[index].left = left;
+    Split(left, first, half);
+    Split(left + 1, first + half, count - half);
+  }
+
+  void Reorder(const std::vector<std::int32_t>& order, std::int32_t first) {
+    std::vector<FaceShape> shapes;
+    std::vector<std::int32_t> faces;
+    for (const std::int32_t i : order) {
+      shapes.push_back(shapes_[i]);
+      faces.push_back(faces_[i]);
+    }
+    std::copy(shapes.begin(), shapes.end(), shapes_.begin() + first);
+    std::copy(faces.begin(), faces.end(), faces_.begin() + first);
+  }
+
+  std::vector<FaceShape> shapes_;    // in the tree's order
+  std::vector<std::int32_t> faces_;  // and their numbers in the mesh
+  std::vector<Node> nodes_;
+  double place_scale_ = 1.0;
+};
+
+}  // namespace
+
+std::vector<FacePair> AntipodalPairs(const TriangleMesh& mesh, const PairLimits& limits) {
+  const PairTree tree(mesh);
+  std::vector<FacePair> pairs;
+  const auto add = [&](std::int32_t i, std::int32_t j) {
+    const std::int32_t f = tree.FaceAt(i), g = tree.FaceAt(j);
+    pairs.push_back({std::min(f, g), std::max(f, g)});
+  };
+  const auto add_block = [&](const Node& a, const Node& b) {
+    for (std::int32_t i = a.first; i < a.first + a.count; ++i) {
+      for (std::int32_t j = b.first; j < b.first + b.count; ++j) add(i, j);
+    }
+  };
+  tree.Visit(AntipodalTest(limits), add_block, add);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::int64_t CountAntipodalPairs(const TriangleMesh& mesh, const PairLimits& limits) {
+  const PairTree tree(mesh);
+  std::int64_t count = 0;
+  tree.Visit(
+      AntipodalTest(limits),
+      [&](const Node& a, const Node& b) { count += std::int64_t{a.count} * b.count; },
+      [&](std::int32_t, std::int32_t) { ++count; });
+  return count;
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,153 @@
+#include "antigrasp/perturb/polyhedra.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "antigrasp/mesh/inspect.h"
+#include "tests/support/shapes.h"
+
+namespace antigrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRadians = std::numbers::pi / 180.0;
+
+PolyhedronOptions Options(double phi) {
+  PolyhedronOptions options;
+  options.phi = phi;
+  options.restarts = 1;
+  options.moves = 25;
+  return options;
+}
+
+TEST(SmallestAntipodality, IsKnownForTheRegularSolids) {
+  const double expected[] = {0.0, std::acos(1.0 / 3.0) / kRadians, 0.0, 0.0, 0.0, 0.0};
+  for (int kind = 0; kind < 6; ++kind) {
+    const TriangleMesh mesh = PlainPolyhedron(static_cast<Polyhedron>(kind), 2.0);
+    EXPECT_NEAR(SmallestAntipodality(mesh).degrees, expected[kind], 1e-7)
+        << PolyhedronNames()[static_cast<std::size_t>(kind)];
+  }
+  EXPECT_EQ(SmallestAntipodality(shapes::Cube()).degrees, 0.0);
+  EXPECT_NEAR(kBestAntipodality, expected[1], 1e-12);
+}
+
+TEST(SmallestAntipodality, NamesThePairAndLeavesOutFacesWithoutArea) {
+  TriangleMesh mesh = shapes::Tetrahedron();  // three faces at right angles and a slanted one
+  const Antipodality antipodality = SmallestAntipodality(mesh);
+  EXPECT_NEAR(antipodality.degrees, std::acos(1.0 / std::sqrt(3.0)) / kRadians, 1e-12);
+  EXPECT_EQ(antipodality.second, 3u);
+  mesh.faces.push_back({0, 1, 1});
+  EXPECT_EQ(SmallestAntipodality(mesh).degrees, antipodality.degrees);
+  EXPECT_EQ(SmallestAntipodality({}).degrees, 180.0);
+}
+
+TEST(SmallestAntipodality, DoesNotChangeWhenTheObjectMoves) {
+  const TriangleMesh cube = MakeAdversarialPolyhedron(Polyhedron::kCube, Options(20)).mesh;
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(1.1, Vector3d(3, 1, -2).normalized()).toRotationMatrix();
+  const TriangleMesh moved = Transformed(shapes::Rotated(cube, turn), 0.01, Vector3d(5, -7, 1));
+  EXPECT_NEAR(SmallestAntipodality(moved).degrees, SmallestAntipodality(cube).degrees, 1e-9);
+  EXPECT_TRUE(IsConvex(moved));
+}
+
+TEST(SmallestAntipodality, OfABallIsThatOfItsFacetsAndOfNoSolidAboveTheTetrahedrons) {
+  EXPECT_NEAR(SmallestAntipodality(shapes::Sphere(1.0, 2)).degrees, 0.0, 1e-9);
+  EXPECT_LE(SmallestAntipodality(shapes::Tetrahedron()).degrees, kBestAntipodality);
+}
+
+TEST(PlainPolyhedron, FillsItsCubeAndIsAConvexSolid) {
+  const std::size_t corners[] = {8, 4, 6, 12, 20, 12};
+  for (int kind = 0; kind < 6; ++kind) {
+    const TriangleMesh mesh = PlainPolyhedron(static_cast<Polyhedron>(kind), 30.0);
+    EXPECT_EQ(mesh.vertices.size(), corners[kind]);
+    EXPECT_NEAR((Bounds(mesh).Extent() - Vector3d::Constant(30)).norm(), 0.0, 1e-12);
+    EXPECT_NEAR(Bounds(mesh).Center().norm(), 0.0, 1e-12);
+    EXPECT_TRUE(Inspect(mesh).IsSolid()) << WhyNotSolid(Inspect(mesh));
+    EXPECT_TRUE(IsConvex(mesh));
+    const double radius = mesh.vertices.front().norm();
+    for (const Vector3d& v : mesh.vertices) EXPECT_NEAR(v.norm(), radius, 1e-12);
+  }
+}
+
+TEST(AdversarialCube, HasThePapersPyramidsAndTheirAngle) {
+  for (const double phi : {10.0, 15.0, 26.0, 30.0}) {
+    const auto cube = MakeAdversarialPolyhedron(Polyhedron::kCube, Options(phi));
+    ASSERT_TRUE(cube.reached) << phi;
+    EXPECT_NEAR(cube.antipodality.degrees, phi, 1e-5);
+    EXPECT_EQ(cube.mesh.vertices.size(), 11u);
+    EXPECT_EQ(cube.mesh.faces.size(), 18u);
+    EXPECT_TRUE(Inspect(cube.mesh).IsSolid());
+    EXPECT_TRUE(IsConvex(cube.mesh));
+    const double height = 0.5 * std::tan(phi * kRadians);
+    EXPECT_NEAR(cube.largest_move, height, 1e-12);
+    // The cube and three pyramids of a third of base times height.
+    EXPECT_NEAR(Inspect(cube.mesh).volume, 40.0 * 40.0 * 40.0 * (1.0 + height), 0.1);
+    EXPECT_NEAR(Bounds(cube.mesh).max.x(), 20.0 + 40.0 * height, 1e-5);
+    EXPECT_EQ(Bounds(cube.mesh).min.x(), -20.0);
+  }
+}
+
+TEST(AdversarialCube, ReachesThirtyDegreesAndNoMore) {
+  const auto cube = MakeAdversarialPolyhedron(Polyhedron::kCube, Options(31));
+  EXPECT_FALSE(cube.reached);
+  EXPECT_NEAR(cube.antipodality.degrees, 30.0, 1e-5);
+}
+
+TEST(AdversarialPolyhedron, ReachesTheAngleWithoutConcavities) {
+  for (const Polyhedron kind : {Polyhedron::kOctahedron, Polyhedron::kCuboctahedron,
+                                Polyhedron::kDodecahedron, Polyhedron::kIcosahedron}) {
+    for (const double phi : {10.0, 26.0}) {
+      const auto solid = MakeAdversarialPolyhedron(kind, Options(phi));
+      EXPECT_TRUE(solid.reached);
+      EXPECT_GE(SmallestAntipodality(solid.mesh).degrees, phi);
+      EXPECT_LT(solid.antipodality.degrees, phi + 0.1);  // moved no further than needed
+      EXPECT_TRUE(Inspect(solid.mesh).IsSolid()) << WhyNotSolid(Inspect(solid.mesh));
+      EXPECT_TRUE(IsConvex(solid.mesh));
+      EXPECT_EQ(solid.mesh.vertices.size(), PlainPolyhedron(kind, 1).vertices.size());
+      // Opposite faces turn by about phi / 2 each.
+      EXPECT_LT(solid.rms_move, 0.6 * phi * kRadians);
+      EXPECT_LE(solid.rms_move, solid.largest_move);
+    }
+  }
+}
+
+TEST(AdversarialPolyhedron, IsThePlainSolidWhenThatWillDo) {
+  const auto tetrahedron = MakeAdversarialPolyhedron(Polyhedron::kTetrahedron, Options(70));
+  EXPECT_TRUE(tetrahedron.reached);
+  EXPECT_EQ(tetrahedron.largest_move, 0.0);
+  const auto plain = MakeAdversarialPolyhedron(Polyhedron::kIcosahedron, Options(0));
+  EXPECT_TRUE(plain.reached);
+  EXPECT_EQ(plain.rms_move, 0.0);
+}
+
+TEST(AdversarialPolyhedron, SaysHowFarItCameWhenTheAngleIsOutOfReach) {
+  PolyhedronOptions options = Options(75);  // of no solid
+  options.moves = 5;
+  const auto solid = MakeAdversarialPolyhedron(Polyhedron::kCuboctahedron, options);
+  EXPECT_FALSE(solid.reached);
+  EXPECT_GT(solid.antipodality.degrees, 10.0);
+  EXPECT_LE(solid.antipodality.degrees, kBestAntipodality);
+}
+
+TEST(AdversarialPolyhedron, DependsOnTheSeedAndNotOnTheThreads) {
+  PolyhedronOptions options = Options(15);
+  options.restarts = 3;
+  options.moves = 5;
+  const auto one = MakeAdversarialPolyhedron(Polyhedron::kOctahedron, options, 1);
+  std::int64_t rounds = 0;
+  const auto two = MakeAdversarialPolyhedron(
+      Polyhedron::kOctahedron, options, 2,
+      [&](std::int64_t done, std::int64_t total) { rounds = done == total ? done : rounds; });
+  EXPECT_EQ(one.mesh.vertices, two.mesh.vertices);
+  EXPECT_EQ(rounds, 10);
+  options.seed = 2;
+  const auto other = MakeAdversarialPolyhedron(Polyhedron::kOctahedron, options, 1);
+  EXPECT_NE(one.mesh.vertices, other.mesh.vertices);
+}
+
+}  // namespace
+}  // namespace antigrasp
