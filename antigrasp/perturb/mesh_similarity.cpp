@@ -18,26 +18,6 @@ using Eigen::Vector3d;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-void CompareNormals(const TriangleMesh& original, const TriangleMesh& changed,
-                    MeshSimilarity* out) {
-  if (original.faces != changed.faces) {
-    out->normal_max = out->normal_mean = std::numeric_limits<double>::quiet_NaN();
-    return;
-  }
-  double weighted = 0.0, area = 0.0;
-  for (std::size_t f = 0; f < original.faces.size(); ++f) {
-    const FaceShape a(original, f), b(changed, f);
-    if (a.normal.isZero() || b.normal.isZero()) continue;
-    // The angle between the normals is the antipodality angle with one of them turned round.
-    const double turn = kDegrees * AntipodalityAngle(a.normal, -b.normal);
-    const double weight = FaceCross(original, f).norm();
-    out->normal_max = std::max(out->normal_max, turn);
-    weighted += weight * turn;
-    area += weight;
-  }
-  out->normal_mean = area > 0.0 ? weighted / area : 0.0;
-}
-
 struct Distances {
   double largest = 0.0;
   double mean = 0.0;  // over area samples
@@ -61,10 +41,30 @@ Distances FromTo(const TriangleMesh& from, const TriangleMesh& to, int samples) 
 
 }  // namespace
 
+NormalDeviation CompareNormals(const TriangleMesh& original, const TriangleMesh& changed) {
+  if (original.faces != changed.faces) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    return {nan, nan};
+  }
+  NormalDeviation out;
+  double weighted = 0.0, area = 0.0;
+  for (std::size_t f = 0; f < original.faces.size(); ++f) {
+    const FaceShape a(original, f), b(changed, f);
+    if (a.normal.isZero() || b.normal.isZero()) continue;
+    // The angle between the normals is the antipodality angle with one of them turned round.
+    const double turn = kDegrees * AntipodalityAngle(a.normal, -b.normal);
+    const double weight = FaceCross(original, f).norm();
+    out.largest = std::max(out.largest, turn);
+    weighted += weight * turn;
+    area += weight;
+  }
+  out.mean = area > 0.0 ? weighted / area : 0.0;
+  return out;
+}
+
 MeshSimilarity CompareMeshes(const TriangleMesh& original, const TriangleMesh& changed,
                              int samples) {
   MeshSimilarity out;
-  CompareNormals(original, changed, &out);
   const double percent = 100.0 / Bounds(original).Extent().norm();
   const Distances there = FromTo(original, changed, samples);
   const Distances back = FromTo(changed, original, samples);

@@ -22,11 +22,10 @@ void Bind(OptionTable* table, PerturbOptions* options) {
              "metric's friction");
   table->Add("perturb.max_width", &o.max_width, 0.0, 1e6,
              "widest pair of faces, metres as the metric scales the object; 0 = any");
-  table->Add("perturb.guard", &o.guard,
-             "undo moves that turn a face inside out, take its area or make the mesh meet itself");
-  table->Add("perturb.history", &o.history, 0, 100000,
-             "times that the number of antipodal pairs is counted on the way (exhaustive: in every "
-             "iteration when not 0)");
+  table->Add("perturb.unchecked", &o.unchecked,
+             "the algorithm as printed: take back no move, even if it spoils the mesh");
+  table->Add("perturb.history", &o.history,
+             "count the antipodal pairs on the way and write history.csv");
 }
 
 PairLimits PairLimitsOf(const PerturbOptions& options, double friction, double metres_per_unit) {
@@ -38,7 +37,7 @@ PairLimits PairLimitsOf(const PerturbOptions& options, double friction, double m
 
 MoveLimits GuardLimits(const PerturbOptions& options) {
   MoveLimits limits;
-  if (options.guard) return limits;
+  if (!options.unchecked) return limits;
   limits.max_turn_per_move = std::numbers::pi;
   limits.min_height = 0.0;
   limits.check_intersections = false;
@@ -62,7 +61,7 @@ void EndPerturbation(const EditableMesh& mesh, PerturbResult* result) {
   if (!why.empty()) result->failure = "after: " + why;
 }
 
-PerturbClock::PerturbClock(std::int64_t iterations, int history, const PairLimits& pairs,
+PerturbClock::PerturbClock(std::int64_t iterations, bool history, const PairLimits& pairs,
                            const ProgressFn& progress)
     : iterations_(iterations), history_(history), pairs_(pairs), progress_(progress) {}
 
@@ -72,7 +71,7 @@ void PerturbClock::Tick(const EditableMesh& mesh, std::int64_t iteration,
   if (progress_ && iteration > 0 && (last || IsMark(iteration, iterations_, 100))) {
     progress_(iteration, iterations_);
   }
-  if (history_ > 0 && (last || IsMark(iteration, iterations_, history_))) {
+  if (history_ && (last || IsMark(iteration, iterations_, kHistoryCounts))) {
     result->history.push_back({iteration, CountAntipodalPairs(mesh.mesh(), pairs_)});
   }
 }

@@ -17,18 +17,20 @@ namespace antigrasp {
 struct PerturbOptions {
   double cone = 0.0;       // half angle psi of the friction cone, degrees; 0 = atan(friction)
   double max_width = 0.0;  // widest pair (jaw opening), metres; 0 = any
-  // Undoes moves that turn a face inside out, take its area or make the mesh meet itself. Without
-  // it the algorithms run as printed, and the result may be no solid.
-  bool guard = true;
-  int history = 0;  // times that |F_a| is counted on the way (exhaustive: every iteration)
+  // Take back no move that turns a face inside out, takes its area or makes the mesh meet itself:
+  // the algorithms as printed, whose result may be no solid.
+  bool unchecked = false;
+  bool history = false;  // count |F_a| on the way: kHistoryCounts times, IV-A in every iteration
 };
 void Bind(OptionTable* table, PerturbOptions* options);  // keys "perturb.*"
+inline constexpr int kHistoryCounts = 20;
 PairLimits PairLimitsOf(const PerturbOptions& options, double friction, double metres_per_unit);
 
 // |F_a| on the way.
 struct PairCount {
   std::int64_t iteration = 0;
   std::int64_t pairs = 0;
+  std::int64_t below = -1;  // those with phi < psi; only IV-A knows it
 };
 
 struct PerturbResult {
@@ -55,13 +57,13 @@ void EndPerturbation(const EditableMesh& mesh, PerturbResult* result);
 // Called once an iteration: reports progress in hundredths, counts |F_a| when it is time to.
 class PerturbClock {
  public:
-  PerturbClock(std::int64_t iterations, int history, const PairLimits& pairs,
+  PerturbClock(std::int64_t iterations, bool history, const PairLimits& pairs,
                const ProgressFn& progress);
   void Tick(const EditableMesh& mesh, std::int64_t iteration, PerturbResult* result) const;
 
  private:
   std::int64_t iterations_;
-  int history_;
+  bool history_;
   PairLimits pairs_;
   ProgressFn progress_;
 };

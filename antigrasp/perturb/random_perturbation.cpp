@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "antigrasp/core/check.h"
+#include "antigrasp/perturb/draw_direction.h"
 #include "antigrasp/perturb/pair_sampler.h"
 
 namespace antigrasp {
@@ -53,13 +54,6 @@ bool Holds(const EditableMesh& mesh, std::int32_t face, std::int32_t vertex) {
   return std::find(corners.begin(), corners.end(), vertex) != corners.end();
 }
 
-Vector3d DrawDirection(RngStream* rng) {
-  const double z = rng->Uniform(-1.0, 1.0);
-  const double around = rng->Uniform(0.0, 2.0 * std::numbers::pi);
-  const double radius = std::sqrt(1.0 - z * z);
-  return {radius * std::cos(around), radius * std::sin(around), z};
-}
-
 enum class StepRule { kSmallest, kSmallestOrNone, kLargestAngle, kLargest };
 
 StepRule StepRuleOf(const std::string& name) {
@@ -77,9 +71,8 @@ struct Candidate {
 
 class RandomRun {
  public:
-  RandomRun(const PairLimits& pairs, const PerturbOptions& common,
-            const RandomPerturbOptions& options, EditableMesh* mesh, RngStream* rng,
-            PerturbResult* result)
+  RandomRun(const PairLimits& pairs, const RandomPerturbOptions& options, EditableMesh* mesh,
+            RngStream* rng, PerturbResult* result)
       : options_(options),
         rule_(StepRuleOf(options.step)),
         from_start_(options.limit == "original"),
@@ -88,7 +81,6 @@ class RandomRun {
         rng_(*rng),
         result_(*result) {
     AG_CHECK(from_start_ || options.limit == "step", "unknown limit: " + options.limit);
-    AG_CHECK(common.guard || !mesh->limits().check_intersections, "limits of an unguarded run");
   }
 
   // False when there is no pair left.
@@ -231,7 +223,7 @@ PerturbResult PerturbRandomly(const TriangleMesh& mesh, const PairLimits& pairs,
     limits.max_turn_per_move = alpha;
   }
   EditableMesh work(result.start, limits);
-  RandomRun run(pairs, common, options, &work, rng, &result);
+  RandomRun run(pairs, options, &work, rng, &result);
   const auto iterations = options.iterations > 0
                               ? options.iterations
                               : std::llround(options.iterations_per_vertex * work.num_vertices());

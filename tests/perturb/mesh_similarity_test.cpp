@@ -14,8 +14,7 @@ using Eigen::Vector3d;
 TEST(MeshSimilarity, AMeshIsLikeItself) {
   const TriangleMesh mesh = shapes::Torus(1.0, 0.4, 24, 12);
   const MeshSimilarity same = CompareMeshes(mesh, mesh);
-  EXPECT_EQ(same.normal_max, 0.0);
-  EXPECT_EQ(same.normal_mean, 0.0);
+  EXPECT_EQ(CompareNormals(mesh, mesh).largest, 0.0);
   EXPECT_NEAR(same.hausdorff, 0.0, 1e-12);
   EXPECT_NEAR(same.chamfer, 0.0, 1e-12);
   EXPECT_EQ(same.volume_change, 0.0);
@@ -29,7 +28,7 @@ TEST(MeshSimilarity, OfAGrownBallIsTheDifferenceOfTheRadii) {
   EXPECT_NEAR(s.hausdorff, 0.02 * percent, 0.02 * 0.01 * percent);
   EXPECT_NEAR(s.chamfer, 0.02 * percent, 0.02 * 0.01 * percent);
   EXPECT_NEAR(s.volume_change, 100 * (1.02 * 1.02 * 1.02 - 1), 1e-9);
-  EXPECT_NEAR(s.normal_max, 0.0, 1e-6);
+  EXPECT_NEAR(CompareNormals(ball, grown).largest, 0.0, 1e-6);
   EXPECT_NEAR(s.center_of_mass, 0.0, 1e-9);
 }
 
@@ -44,7 +43,7 @@ TEST(MeshSimilarity, OfABoxWithAMovedCornerIsKnown) {
   EXPECT_NEAR(s.hausdorff, 0.1 * percent, 1e-9);
   EXPECT_NEAR(s.volume_change, 10.0, 1e-9);
   EXPECT_NEAR(s.center_of_mass, 0.05 * percent, 1e-9);
-  EXPECT_NEAR(s.normal_max, 0.0, 1e-6);
+  EXPECT_NEAR(CompareNormals(box, changed).largest, 0.0, 1e-6);
   EXPECT_GT(s.chamfer, 0.0);
   EXPECT_LT(s.chamfer, s.hausdorff);
 }
@@ -55,15 +54,16 @@ TEST(MeshSimilarity, KnowsTheAngleByWhichASideTurned) {
   for (Vector3d& v : changed.vertices) {
     if (v.x() > 0 && v.z() > 0) v.z() += std::tan(0.1);  // the top tilts by 0.1 rad
   }
-  const MeshSimilarity s = CompareMeshes(box, changed);
-  EXPECT_NEAR(s.normal_max, 0.1 * 180 / M_PI, 1e-9);
-  EXPECT_NEAR(s.normal_mean, 0.1 * 180 / M_PI / 6, 1e-9);  // one of six sides
+  const NormalDeviation s = CompareNormals(box, changed);
+  EXPECT_NEAR(s.largest, 0.1 * 180 / M_PI, 1e-9);
+  EXPECT_NEAR(s.mean, 0.1 * 180 / M_PI / 6, 1e-9);  // one of six sides
 }
 
 TEST(MeshSimilarity, ComparesNoNormalsOfMeshesWithOtherFaces) {
-  const MeshSimilarity s = CompareMeshes(shapes::Sphere(1.0, 3), shapes::Sphere(1.0, 2));
-  EXPECT_TRUE(std::isnan(s.normal_max));
-  EXPECT_TRUE(std::isnan(s.normal_mean));
+  const TriangleMesh fine = shapes::Sphere(1.0, 3), coarse = shapes::Sphere(1.0, 2);
+  EXPECT_TRUE(std::isnan(CompareNormals(fine, coarse).largest));
+  EXPECT_TRUE(std::isnan(CompareNormals(fine, coarse).mean));
+  const MeshSimilarity s = CompareMeshes(fine, coarse);
   EXPECT_GT(s.hausdorff, 0.1);
   EXPECT_LT(s.hausdorff, 1.0);
 }

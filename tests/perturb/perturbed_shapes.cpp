@@ -32,7 +32,7 @@ TriangleMesh Dodecahedron() {
       for (const double b : {-1.0, 1.0}) {
         Vector3d normal = Vector3d::Zero();
         normal[axis] = a;
-        normal[(axis + 1) % 3] = b * g;
+        normal[(axis + 2) % 3] = b * g;
         normal.normalize();
         std::vector<std::int32_t> ring;
         double top = -1.0;
