@@ -23,6 +23,7 @@ using shapes::TempFolder;
 RunConfig Tiny() {
   RunConfig config;
   config.threads = 2;
+  config.torch_threads = 1;  // tests run side by side
   config.prior.count = 24;
   config.model.width = 4;
   config.model.latent = 8;
