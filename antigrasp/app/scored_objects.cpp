@@ -100,8 +100,11 @@ std::string ScoresCsv(const std::vector<ScoredObject>& scored, const ScoresCsvCo
 std::string GraspsCsv(const std::vector<ScoredObject>& scored) {
   std::string csv =
       "object,grasp,p1x,p1y,p1z,n1x,n1y,n1z,p2x,p2y,p2z,n2x,n2y,n2z,axis_x,axis_y,axis_z,width,"
-      "robust_quality,approach_x,approach_y,approach_z\n";
+      "robust_quality,approach_x,approach_y,approach_z,comx,comy,comz,in1x,in1y,in1z,in2x,in2y,"
+      "in2z\n";
   for (const ScoredObject& item : scored) {
+    if (item.score.grasps.empty()) continue;
+    const Eigen::Vector3d com = item.score.scale * CenterOfMass(item.object.mesh);
     for (std::size_t g = 0; g < item.score.grasps.size(); ++g) {
       const ScoredGrasp& scored_grasp = item.score.grasps[g];
       csv += CsvField(item.object.name) + "," + std::to_string(g);
@@ -116,6 +119,9 @@ std::string GraspsCsv(const std::vector<ScoredObject>& scored) {
       csv +=
           "," + FormatDouble(scored_grasp.grasp.width) + "," + FormatDouble(scored_grasp.quality);
       add(scored_grasp.grasp.approach);
+      add(com);
+      add(scored_grasp.grasp.axis);  // the two jaws' closing directions, as `quality` reads them
+      add(-scored_grasp.grasp.axis);
       csv += "\n";
     }
   }

@@ -147,6 +147,25 @@ TEST(Cli, EvaluatePairsChangedObjectsWithTheirOriginalsUnderEqualRandomNumbers) 
       << unpaired.text;
 }
 
+TEST(Cli, QualityReadsTheGraspsThatEvaluateWrites) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteMesh(folder / "box.stl", shapes::Box({1.0, 1.5, 2.0}));
+  ASSERT_EQ(Antigrasp("evaluate " + dir + "box.stl --num-grasps 1 --noise none --num-draws 1 " +
+                      "--grasps " + dir + "g.csv --out " + dir + "s.csv")
+                .code,
+            0);
+  ASSERT_EQ(Antigrasp("quality " + dir + "g.csv --out " + dir + "q.csv").code, 0);
+  // With one grasp and no noise the graspability is that grasp's epsilon.
+  const std::string scores = ReadFile(folder / "s.csv"), quality = ReadFile(folder / "q.csv");
+  const std::string head = "box.stl,ok,1,";
+  const std::size_t at = scores.find(head) + head.size();
+  const double graspability = std::stod(scores.substr(at));
+  EXPECT_GT(graspability, 0.0);
+  EXPECT_NEAR(std::stod(quality.substr(quality.find("\n1,") + 3)), graspability,
+              1e-9 * graspability);
+}
+
 TEST(Cli, EvaluateWritesARowPerObjectAndNamesTheBadOnes) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/";
