@@ -54,6 +54,9 @@ int Run(int argc, char** argv) {
   AddRemeshCommand(&app);
   AddEvaluateCommand(&app);
   AddQualityCommand(&app);
+  AddShapeCommand(&app);
+  AddPosesCommand(&app);
+  AddTrialCommand(&app);
   AddExportCommand(&app);
   AddInfoCommand(&app);
   AddHelpCommand(&app, &topic);

@@ -252,7 +252,7 @@ Eigen::Matrix3d TableFromObject(const Vector3d& up) {
   const Vector3d x = level.norm() > 0.0 ? level.normalized() : Vector3d::UnitX();
   Eigen::Matrix3d rotation;
   rotation << x.transpose(), up.cross(x).transpose(), up.transpose();
-  return rotation;
+  return rotation.array() + 0.0;  // no negative zeros
 }
 
 }  // namespace

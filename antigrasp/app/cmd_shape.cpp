@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "antigrasp/app/commands.h"
+#include "antigrasp/app/console.h"
+#include "antigrasp/app/flags.h"
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/format.h"
+#include "antigrasp/mesh/inspect.h"
+#include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/mesh/mesh_format.h"
+#include "antigrasp/perturb/polyhedra.h"
+
+namespace antigrasp {
+namespace {
+
+struct ShapeFlags {
+  std::string kind;
+  std::string out;
+  PolyhedronOptions options;
+  int threads = 0;
+};
+
+OptionFlags SearchFlags(CLI::App* command) {
+  PolyhedronOptions defaults;
+  OptionTable table;
+  Bind(&table, &defaults);
+  return {command, table, "Search"};
+}
+
+Polyhedron KindOf(const std::string& name) {
+  const auto& names = PolyhedronNames();
+  return static_cast<Polyhedron>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+void PrintCertificate(const AdversarialPolyhedron& solid, const ShapeFlags& flags) {
+  const MeshReport report = Inspect(solid.mesh);
+  const std::string flaw = WhyNotSolid(report);
+  const Eigen::Vector3d extent = Bounds(solid.mesh).Extent();
+  std::printf("%s: %s, %zu vertices, %zu faces\n", flags.out.c_str(), flags.kind.c_str(),
+              solid.mesh.vertices.size(), solid.mesh.faces.size());
+  std::printf("smallest antipodality angle  %.4f degrees, of faces %zu and %zu (asked for: %g)\n",
+              solid.antipodality.degrees, solid.antipodality.first, solid.antipodality.second,
+              flags.options.phi);
+  std::printf("convex                       %s\n", IsConvex(solid.mesh) ? "yes" : "no");
+  std::printf("closed                       %s\n", report.closed ? "yes" : "no");
+  std::printf("printable                    %s\n", flaw.empty() ? "yes" : ("no: " + flaw).c_str());
+  std::printf("moved from the plain solid   at most %.2f %% of its size, %.2f %% rms\n",
+              100.0 * solid.largest_move, 100.0 * solid.rms_move);
+  std::printf("extents                      %.2f x %.2f x %.2f mm, %.2f cm^3\n", extent.x(),
+              extent.y(), extent.z(), report.volume / 1000.0);
+}
+
+void Shape(ShapeFlags flags, const OptionFlags& search) {
+  OptionTable table;
+  Bind(&table, &flags.options);
+  search.Apply(&table);
+  const PolyhedronOptions& options = flags.options;
+  RequireMeshFormat(flags.out);
+  if (!(options.phi <= kBestAntipodality)) {
+    throw InputError(
+        "phi = " + FormatDouble(options.phi), "--phi",
+        "at most 70.5288 degrees, the regular tetrahedron's: no closed solid has more");
+  }
+  if (!std::isfinite(options.size)) {  // the range check lets nan through
+    throw InputError("size = " + FormatDouble(options.size), "--size-mm", "a number");
+  }
+  { const AtomicFile probe(flags.out); }  // refuses an unwritable target before the work
+  ConsoleObserver console;
+  const AdversarialPolyhedron solid = MakeAdversarialPolyhedron(
+      KindOf(flags.kind), options, flags.threads, console.Phase("searching"));
+  if (!solid.reached) {
+    char best[32];
+    std::snprintf(best, sizeof best, "%.4f", solid.antipodality.degrees);
+    throw InputError("phi = " + FormatDouble(options.phi) + " is out of reach",
+                     "shape " + flags.kind,
+                     std::string("at most ") + best + " degrees, the best reached");
+  }
+  WriteMesh(flags.out, solid.mesh);
+  PrintCertificate(solid, flags);
+}
+
+constexpr const char* kAbout =
+    "The cube carries the paper's pyramids on three faces (up to 30 degrees); the corners of the\n"
+    "others are moved at random until no two faces oppose each other under less than phi, and "
+    "then\n"
+    "as near to their old places as phi allows. phi is the angle between one face's normal and "
+    "the\n"
+    "reverse of the other's: parallel faces have 0. A gripper pinches two faces only up to twice\n"
+    "the half angle of its friction cone.\n";
+
+}  // namespace
+
+void AddShapeCommand(CLI::App* app) {
+  const auto flags = std::make_shared<ShapeFlags>();
+  CLI::App* command =
+      app->add_subcommand("shape", "Make a polyhedron whose faces do not oppose each other");
+  command->add_option("KIND", flags->kind, "what to start from")
+      ->required()
+      ->check(CLI::IsMember(PolyhedronNames()));
+  command
+      ->add_option("--phi", flags->options.phi,
+                   "smallest antipodality angle of any two faces, degrees; 0 = the plain solid")
+      ->required()
+      ->check(CLI::Range(0.0, 90.0));
+  command
+      ->add_option("--size-mm", flags->options.size,
+                   "edge of the cube that the plain solid is inscribed in, mm")
+      ->check(CLI::Range(0.001, 1e5))
+      ->capture_default_str();
+  command->add_option("--out", flags->out, "mesh file (STL, OBJ, PLY, OFF), millimetres")
+      ->required();
+  command->add_option("--seed", flags->options.seed, "random seed")->capture_default_str();
+  command->add_option("--threads", flags->threads, "threads; 0 = all; the solid is the same")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  const auto search = std::make_shared<OptionFlags>(SearchFlags(command));
+  command->footer(kAbout);
+  command->callback([flags, search] { Shape(*flags, *search); });
+}
+
+}  // namespace antigrasp
