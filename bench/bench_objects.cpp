@@ -6,9 +6,10 @@
 
 namespace antigrasp::bench {
 
-std::vector<TriangleMesh> RemeshedCylinders(int count) {
+std::vector<TriangleMesh> RemeshedCylinders(int count, int resolution) {
   PriorSetOptions options;
   options.count = count;
+  options.resolution = resolution;
   std::vector<TriangleMesh> meshes;
   for (const SdfGrid& grid : MakePriorSet(options).grids) meshes.push_back(MarchingCubes(grid));
   return meshes;

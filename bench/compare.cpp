@@ -5,4 +5,5 @@
 int main() {
   antigrasp::bench::CompareEpsilon();
   antigrasp::bench::CompareEvaluation();
+  antigrasp::bench::ComparePerturb();
 }

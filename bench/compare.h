@@ -4,5 +4,6 @@ namespace antigrasp::bench {
 
 void CompareEpsilon();
 void CompareEvaluation();
+void ComparePerturb();
 
 }  // namespace antigrasp::bench

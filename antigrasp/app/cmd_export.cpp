@@ -5,6 +5,7 @@
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
+#include "antigrasp/app/flags.h"
 #include "antigrasp/app/input_objects.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
@@ -59,7 +60,7 @@ void AddExportCommand(CLI::App* app) {
       ->check(CLI::IsMember({"stl", "obj", "ply", "off"}))
       ->capture_default_str();
   command->add_option("--size-mm", flags->size_mm, "largest extent, mm")
-      ->check(CLI::Range(0.001, 1e5))
+      ->check(NumberIn(0.001, 1e5))
       ->capture_default_str();
   command->add_option("--threads", flags->threads, "threads; 0 = all")
       ->check(CLI::Range(0, 1024))

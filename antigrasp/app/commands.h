@@ -12,6 +12,7 @@ void AddSampleCommand(CLI::App* app);
 void AddRemeshCommand(CLI::App* app);
 void AddEvaluateCommand(CLI::App* app);
 void AddQualityCommand(CLI::App* app);
+void AddPerturbCommand(CLI::App* app);
 void AddShapeCommand(CLI::App* app);
 void AddPosesCommand(CLI::App* app);
 void AddTrialCommand(CLI::App* app);

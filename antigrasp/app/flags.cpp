@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "antigrasp/core/format.h"
+
 namespace antigrasp {
 namespace {
 
@@ -27,6 +29,18 @@ std::string FlagOf(const std::string& key) {
   std::replace(flag.begin() + 2, flag.end(), '_', '-');
   std::replace(flag.begin() + 2, flag.end(), '.', '-');
   return flag;
+}
+
+CLI::Validator NumberIn(double low, double high) {
+  const std::string range = "[" + FormatDouble(low) + " - " + FormatDouble(high) + "]";
+  return {[low, high, range](const std::string& text) {
+            double value = 0.0;
+            const bool read = CLI::detail::lexical_cast(text, value);
+            return read && value >= low && value <= high
+                       ? std::string()
+                       : "Value " + text + " not in range " + range;
+          },
+          "FLOAT in " + range, "NumberIn"};
 }
 
 OptionFlags::OptionFlags(CLI::App* command, const OptionTable& table, const std::string& group) {

@@ -37,6 +37,9 @@ class MetricFlags {
   OptionFlags options_;
 };
 
+// A number in [low, high]; unlike CLI::Range it refuses nan.
+CLI::Validator NumberIn(double low, double high);
+
 // "metric.num_grasps" -> "--num-grasps"; the gripper's keep their section: "gripper.palm_width" ->
 // "--gripper-palm-width".
 std::string FlagOf(const std::string& key);

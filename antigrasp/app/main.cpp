@@ -54,6 +54,7 @@ int Run(int argc, char** argv) {
   AddRemeshCommand(&app);
   AddEvaluateCommand(&app);
   AddQualityCommand(&app);
+  AddPerturbCommand(&app);
   AddShapeCommand(&app);
   AddPosesCommand(&app);
   AddTrialCommand(&app);

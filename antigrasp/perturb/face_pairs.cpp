@@ -15,6 +15,8 @@ using Eigen::Vector3d;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Nearer than this share of the faces' size, p and q are one point (a shared corner, rounded).
 constexpr double kSamePoint = 1e-12;
+// A plane separates two shapes when it does so by this share of their distance.
+constexpr double kPlaneSlack = 1e-11;
 // Below this share of its squared size a face's area is rounding noise.
 constexpr double kNoArea = 1e-12;
 
@@ -29,29 +31,53 @@ struct Lens {
   Cone outward;  // at the second
 };
 
-// The part of start + s * step, s in [0, 1], in the lens. Where a segment begins or ends in the
-// origin (a shared corner) the origin itself does not count.
-Range ClipToLens(const Vector3d& start, const Vector3d& step, const Lens& lens) {
-  constexpr Range kNothing{1.0, 0.0};
-  if (start.isZero(0.0)) return lens.Contains(step) ? Range{0.0, 1.0} : kNothing;
-  if ((start + step).isZero(0.0)) return lens.Contains(start) ? Range{0.0, 1.0} : kNothing;
-  const Range range = ClipToCone(start, step, lens.inward, {0.0, 1.0});
-  return range.empty() ? range : ClipToCone(start, step, lens.outward, range);
+// The nine differences of corners, which are the corners of D = second - first.
+using Corners = std::array<std::array<Vector3d, 3>, 3>;  // [of the first][of the second]
+
+Corners CornersOf(const FaceShape& first, const FaceShape& second) {
+  Corners d;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) d[i][j] = second.corner[j] - first.corner[i];
+  }
+  return d;
 }
 
-// Calls visit(start, step) for the 18 segments that hold the edges of D = second - first, until it
-// returns true.
+// The part of from + s * (to - from), s in [0, 1], in the lens. Where a segment begins or ends in
+// the origin (a shared corner) the origin itself does not count.
+Range ClipToLens(const Vector3d& from, const Vector3d& to, const Lens& lens) {
+  constexpr Range kNothing{1.0, 0.0};
+  if (from.isZero(0.0)) return lens.Contains(to) ? Range{0.0, 1.0} : kNothing;
+  if (to.isZero(0.0)) return lens.Contains(from) ? Range{0.0, 1.0} : kNothing;
+  const Range range = ClipToCone(from, to - from, lens.inward, {0.0, 1.0});
+  return range.empty() ? range : ClipToCone(from, to - from, lens.outward, range);
+}
+
+// Calls visit(from, to) for the 18 segments that hold the edges of D, until it returns true.
 template <typename Visit>
-bool AnySegment(const FaceShape& first, const FaceShape& second, const Visit& visit) {
+bool AnySegment(const Corners& d, const Visit& visit) {
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vector3d edge_of_first = first.corner[(i + 1) % 3] - first.corner[i];
     for (std::size_t j = 0; j < 3; ++j) {
-      const Vector3d start = second.corner[j] - first.corner[i];
-      if (visit(start, Vector3d(second.corner[(j + 1) % 3] - second.corner[j]))) return true;
-      if (visit(start, Vector3d(-edge_of_first))) return true;
+      if (visit(d[i][j], d[i][(j + 1) % 3]) || visit(d[i][j], d[(i + 1) % 3][j])) return true;
     }
   }
   return false;
+}
+
+template <typename Visit>
+bool AnyCorner(const Corners& d, const Visit& visit) {
+  return std::any_of(d.begin(), d.end(),
+                     [&](const auto& row) { return std::any_of(row.begin(), row.end(), visit); });
+}
+
+// Whether the plane that touches the cone where it is nearest to `towards` has all of D beyond it.
+bool IsBeyond(const Corners& d, const Vector3d& towards, const Cone& cone, double cosine,
+              double sine) {
+  const Vector3d sideways = towards - towards.dot(cone.axis) * cone.axis;
+  const double length = sideways.norm();
+  if (!(length > 0.0)) return false;
+  const Vector3d out = cosine / length * sideways - sine * cone.axis;
+  const double least = kPlaneSlack * towards.norm();
+  return !AnyCorner(d, [&](const Vector3d& corner) { return out.dot(corner) <= least; });
 }
 
 // Where the ray from the origin along `direction`, which enters the first face from outside, is in
@@ -154,31 +180,45 @@ AntipodalTest::AntipodalTest(const PairLimits& limits)
   AG_CHECK(limits.cone_angle >= 0.0 && cosine_ > 1e-9, "cone angle in [0, pi / 2)");
 }
 
-bool AntipodalTest::MayMeet(const FaceShape& first, const FaceShape& second) const {
-  if (-first.normal.dot(second.normal) < cosine_of_double_) return false;
-  if (first.normal.isZero() || second.normal.isZero()) return false;
+// Every q - p is within asin(reach / distance) of the line between the centres: all of them may be
+// outside a cone. And the centres are points of the faces themselves.
+AntipodalTest::Guess AntipodalTest::ByCenters(const FaceShape& first,
+                                              const FaceShape& second) const {
+  if (-first.normal.dot(second.normal) < cosine_of_double_) return Guess::kNo;
+  if (!first.has_area() || !second.has_area()) return Guess::kNo;
   const Vector3d between = second.center - first.center;
-  const double reach = first.radius + second.radius, squared = between.squaredNorm();
-  if (squared <= reach * reach) return true;
-  // Every q - p is within asin(reach / distance) of the line between the centres.
-  const double distance = std::sqrt(squared), spread = std::sqrt(squared - reach * reach);
-  const double least = cosine_ * spread - sine_ * reach - kConeSlack * distance;
-  return -first.normal.dot(between) >= least && second.normal.dot(between) >= least &&
-         distance - reach <= limits_.max_width;
+  const double squared = between.squaredNorm(), distance = std::sqrt(squared);
+  const double least = std::min(-first.normal.dot(between), second.normal.dot(between));
+  if (least > cosine_ * distance && distance <= limits_.max_width) return Guess::kYes;
+  const double reach = first.radius + second.radius;
+  if (distance <= reach) return Guess::kOpen;
+  if (distance - reach > limits_.max_width) return Guess::kNo;
+  const double spread = std::sqrt(squared - reach * reach);
+  const bool outside = least + kConeSlack * distance < cosine_ * spread - sine_ * reach;
+  return outside ? Guess::kNo : Guess::kOpen;
 }
 
 bool AntipodalTest::Meet(const FaceShape& first, const FaceShape& second) const {
+  const Lens lens(first, second, limits_.cone_angle);
+  const Corners d = CornersOf(first, second);
+  // Two quick answers first; neither decides what the rest would decide otherwise.
+  if (AnyCorner(d, [&](const Vector3d& corner) { return lens.Contains(corner); })) return true;
+  const Vector3d between = second.center - first.center;
+  if (IsBeyond(d, between, lens.inward, cosine_, sine_) ||
+      IsBeyond(d, between, lens.outward, cosine_, sine_)) {
+    return false;
+  }
   const Vector3d middle = (second.normal - first.normal).normalized();
   const double same_point = kSamePoint * (first.radius + second.radius);
   if (AlongRay(first, second, middle).high > same_point) return true;
-  const Lens lens(first, second, limits_.cone_angle);
-  return AnySegment(first, second, [&](const Vector3d& start, const Vector3d& step) {
-    return !ClipToLens(start, step, lens).empty();
+  return AnySegment(d, [&](const Vector3d& from, const Vector3d& to) {
+    return !ClipToLens(from, to, lens).empty();
   });
 }
 
 bool AntipodalTest::operator()(const FaceShape& first, const FaceShape& second) const {
-  if (!MayMeet(first, second)) return false;
+  const Guess guess = ByCenters(first, second);
+  if (guess != Guess::kOpen) return guess == Guess::kYes;
   const double farthest = (second.center - first.center).norm() + first.radius + second.radius;
   if (farthest > limits_.max_width) return Width(first, second) <= limits_.max_width;
   return Meet(first, second);
@@ -186,16 +226,17 @@ bool AntipodalTest::operator()(const FaceShape& first, const FaceShape& second) 
 
 double AntipodalTest::Width(const FaceShape& first, const FaceShape& second) const {
   if (-first.normal.dot(second.normal) < cosine_of_double_) return kInfinity;
-  if (first.normal.isZero() || second.normal.isZero()) return kInfinity;
+  if (!first.has_area() || !second.has_area()) return kInfinity;
   const double same_point = kSamePoint * (first.radius + second.radius);
   const Lens lens(first, second, limits_.cone_angle);
   double width = kInfinity;
-  AnySegment(first, second, [&](const Vector3d& start, const Vector3d& step) {
-    const Range range = ClipToLens(start, step, lens);
+  AnySegment(CornersOf(first, second), [&](const Vector3d& from, const Vector3d& to) {
+    const Range range = ClipToLens(from, to, lens);
     if (range.empty()) return false;
-    const double foot = -start.dot(step) / step.squaredNorm();
+    const Vector3d step = to - from;
+    const double foot = -from.dot(step) / step.squaredNorm();
     const double at = std::clamp(foot, range.low, range.high);
-    width = std::min(width, (start + at * step).norm());
+    width = std::min(width, (from + at * step).norm());
     return false;
   });
   for (const Vector3d& facet : FacetNormals(first, second)) {

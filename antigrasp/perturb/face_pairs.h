@@ -23,6 +23,8 @@ struct FaceShape {
   FaceShape() = default;
   FaceShape(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
   FaceShape(const TriangleMesh& mesh, std::size_t face);
+  bool has_area() const { return normal != Eigen::Vector3d::Zero(); }
+
   std::array<Eigen::Vector3d, 3> corner;
   Eigen::Vector3d normal;  // outward unit normal; zero for a face without area
   Eigen::Vector3d center;  // of a ball around the face
@@ -44,7 +46,8 @@ struct PairLimits {
 // With max_width the nearest point of D in K is found as well: it lies on one of those segments or,
 // on a facet of D, in the direction of K nearest to the facet's normal (3 edges x 3 edges and the
 // two faces' own normals). Faces that share corners hold p = q there; this is no grasp and does
-// not count. Cost: 4 ns when normals or enclosing balls decide, 0.1-0.5 us else.
+// not count. Cost: 4-9 ns when normals, enclosing balls or the two centroids decide (97 % of the
+// pairs of a remeshed object), 0.2 us else; with max_width 3 us where that is near.
 class AntipodalTest {
  public:
   explicit AntipodalTest(const PairLimits& limits);
@@ -57,7 +60,8 @@ class AntipodalTest {
   double max_width() const { return limits_.max_width; }
 
  private:
-  bool MayMeet(const FaceShape& first, const FaceShape& second) const;
+  enum class Guess { kNo, kYes, kOpen };
+  Guess ByCenters(const FaceShape& first, const FaceShape& second) const;
   bool Meet(const FaceShape& first, const FaceShape& second) const;
 
   PairLimits limits_;

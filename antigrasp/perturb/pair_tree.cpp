@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::int32_t kLeafSize = 4;
+constexpr std::int32_t kLeafSize = 8;
 // Rounding in the angles of the bounds; what is nearer to the limit is looked at more closely.
 constexpr double kAngleSlack = 1e-7;
 
@@ -21,21 +21,31 @@ double Angle(const Vector3d& unit_a, const Vector3d& unit_b) {
   return std::acos(std::clamp(unit_a.dot(unit_b), -1.0, 1.0));
 }
 
+// An angle with its cosine and sine.
+struct Bend {
+  explicit Bend(double radians = 0.0)
+      : angle(radians), cosine(std::cos(radians)), sine(std::sin(radians)) {}
+  double angle, cosine, sine;
+};
+
 struct Node {
   Vector3d center = Vector3d::Zero();  // of the enclosing ball
   double radius = 0.0;
-  Vector3d axis = Vector3d::UnitX();  // every normal is within `turn` of it
-  double turn = 0.0;
+  Vector3d axis = Vector3d::UnitX();
+  double turn = 0.0;  // every normal is within it of the axis
+  Bend most;          // psi + turn: beyond, a direction is in no friction cone of the node
+  Bend least;         // psi - turn: within, it is in all of them; negative: never
   std::int32_t first = 0, count = 0;  // faces in the tree's order
   std::int32_t left = -1;             // the right child follows it; -1 for a leaf
 };
 
 class PairTree {
  public:
-  explicit PairTree(const TriangleMesh& mesh) {
+  PairTree(const TriangleMesh& mesh, const PairLimits& limits)
+      : test_(limits), psi_(limits.cone_angle), max_width_(limits.max_width) {
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
       const FaceShape shape(mesh, f);
-      if (shape.normal.isZero()) continue;
+      if (!shape.has_area()) continue;
       shapes_.push_back(shape);
       faces_.push_back(static_cast<std::int32_t>(f));
     }
@@ -50,7 +60,7 @@ class PairTree {
   // Calls block(x, y) for two nodes all of whose pairs are antipodal and pair(i, j) for single
   // faces (all in the tree's order).
   template <typename Block, typename Pair>
-  void Visit(const AntipodalTest& test, const Block& block, const Pair& pair) const {
+  void Visit(const Block& block, const Pair& pair) const {
     if (shapes_.empty()) return;
     std::vector<std::pair<std::int32_t, std::int32_t>> stack{{0, 0}};
     while (!stack.empty()) {
@@ -58,21 +68,21 @@ class PairTree {
       stack.pop_back();
       const Node &a = nodes_[x], &b = nodes_[y];
       if (x == y) {
-        if (2.0 * test.cone_angle() + 2.0 * a.turn + kAngleSlack < kPi) continue;  // all alike
+        if (2.0 * a.most.angle < kPi) continue;  // no two normals are opposite enough
         if (a.left < 0) {
-          VisitLeaves(a, b, test, pair);
+          VisitLeaves(a, b, pair);
         } else {
           stack.insert(stack.end(),
                        {{a.left, a.left}, {a.left + 1, a.left + 1}, {a.left, a.left + 1}});
         }
         continue;
       }
-      const Verdict verdict = Compare(a, b, test);
+      const Verdict verdict = Compare(a, b);
       if (verdict == Verdict::kNone) continue;
       if (verdict == Verdict::kAll) {
         block(a, b);
       } else if (a.left < 0 && b.left < 0) {
-        VisitLeaves(a, b, test, pair);
+        VisitLeaves(a, b, pair);
       } else if (b.left < 0 || (a.left >= 0 && Size(a) > Size(b))) {
         stack.insert(stack.end(), {{a.left, y}, {a.left + 1, y}});
       } else {
@@ -89,31 +99,39 @@ class PairTree {
   // What is left undecided grows with the ball and with the spread of the normals.
   double Size(const Node& node) const { return node.radius * place_scale_ + node.turn; }
 
-  static Verdict Compare(const Node& a, const Node& b, const AntipodalTest& test) {
-    const double psi = test.cone_angle();
-    const double turn = Angle(-a.axis, b.axis);
-    if (turn > 2.0 * psi + a.turn + b.turn + kAngleSlack) return Verdict::kNone;
+  // Every q - p is within `spread` = asin(reach / distance) of the line between the centres.
+  Verdict Compare(const Node& a, const Node& b) const {
+    const bool bounded = a.most.angle + b.most.angle < kPi;
+    if (bounded &&
+        -a.axis.dot(b.axis) < a.most.cosine * b.most.cosine - a.most.sine * b.most.sine) {
+      return Verdict::kNone;
+    }
     const Vector3d between = b.center - a.center;
-    const double distance = between.norm(), reach = a.radius + b.radius;
-    if (distance <= reach) return Verdict::kSome;
-    if (distance - reach > test.max_width()) return Verdict::kNone;
-    const double spread = std::asin(reach / distance);
-    const double at_a = Angle(between / distance, -a.axis);
-    const double at_b = Angle(between / distance, b.axis);
-    const double most_a = psi + spread + a.turn, most_b = psi + spread + b.turn;
-    if (at_a > most_a + kAngleSlack || at_b > most_b + kAngleSlack) return Verdict::kNone;
-    const bool all = at_a + spread + a.turn + kAngleSlack < psi &&
-                     at_b + spread + b.turn + kAngleSlack < psi &&
-                     distance + reach < test.max_width();
+    const double reach = a.radius + b.radius, squared = between.squaredNorm();
+    if (squared <= reach * reach) return Verdict::kSome;
+    const double distance = std::sqrt(squared), along = std::sqrt(squared - reach * reach);
+    if (distance - reach > max_width_) return Verdict::kNone;
+    const double at_a = -a.axis.dot(between), at_b = b.axis.dot(between);
+    // cos(most + spread), where that is less than a half turn, and cos(least - spread).
+    const auto outside = [&](double at, const Bend& most) {
+      return (most.angle < 0.5 * kPi || (most.angle < kPi && reach < most.sine * distance)) &&
+             at < most.cosine * along - most.sine * reach;
+    };
+    const auto inside = [&](double at, const Bend& least) {
+      return least.angle > 0.0 && reach < least.sine * distance &&
+             at > least.cosine * along + least.sine * reach;
+    };
+    if (outside(at_a, a.most) || outside(at_b, b.most)) return Verdict::kNone;
+    const bool all =
+        inside(at_a, a.least) && inside(at_b, b.least) && distance + reach < max_width_;
     return all ? Verdict::kAll : Verdict::kSome;
   }
 
   template <typename Pair>
-  void VisitLeaves(const Node& a, const Node& b, const AntipodalTest& test,
-                   const Pair& pair) const {
+  void VisitLeaves(const Node& a, const Node& b, const Pair& pair) const {
     for (std::int32_t i = a.first; i < a.first + a.count; ++i) {
       for (std::int32_t j = a.first == b.first ? i + 1 : b.first; j < b.first + b.count; ++j) {
-        if (test(shapes_[i], shapes_[j])) pair(i, j);
+        if (test_(shapes_[i], shapes_[j])) pair(i, j);
       }
     }
   }
@@ -138,6 +156,8 @@ class PairTree {
       }
       node.turn = std::max(node.turn, Angle(node.axis, shapes_[i].normal));
     }
+    node.most = Bend(psi_ + node.turn + kAngleSlack);
+    node.least = Bend(psi_ - node.turn - kAngleSlack);
     return node;
   }
 
@@ -186,6 +206,8 @@ class PairTree {
     std::copy(faces.begin(), faces.end(), faces_.begin() + first);
   }
 
+  AntipodalTest test_;
+  double psi_, max_width_;
   std::vector<FaceShape> shapes_;    // in the tree's order
   std::vector<std::int32_t> faces_;  // and their numbers in the mesh
   std::vector<Node> nodes_;
@@ -195,7 +217,7 @@ class PairTree {
 }  // namespace
 
 std::vector<FacePair> AntipodalPairs(const TriangleMesh& mesh, const PairLimits& limits) {
-  const PairTree tree(mesh);
+  const PairTree tree(mesh, limits);
   std::vector<FacePair> pairs;
   const auto add = [&](std::int32_t i, std::int32_t j) {
     const std::int32_t f = tree.FaceAt(i), g = tree.FaceAt(j);
@@ -206,18 +228,16 @@ std::vector<FacePair> AntipodalPairs(const TriangleMesh& mesh, const PairLimits&
       for (std::int32_t j = b.first; j < b.first + b.count; ++j) add(i, j);
     }
   };
-  tree.Visit(AntipodalTest(limits), add_block, add);
+  tree.Visit(add_block, add);
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 
 std::int64_t CountAntipodalPairs(const TriangleMesh& mesh, const PairLimits& limits) {
-  const PairTree tree(mesh);
+  const PairTree tree(mesh, limits);
   std::int64_t count = 0;
-  tree.Visit(
-      AntipodalTest(limits),
-      [&](const Node& a, const Node& b) { count += std::int64_t{a.count} * b.count; },
-      [&](std::int32_t, std::int32_t) { ++count; });
+  tree.Visit([&](const Node& a, const Node& b) { count += std::int64_t{a.count} * b.count; },
+             [&](std::int32_t, std::int32_t) { ++count; });
   return count;
 }
 

@@ -68,9 +68,7 @@ PerturbClock::PerturbClock(std::int64_t iterations, bool history, const PairLimi
 void PerturbClock::Tick(const EditableMesh& mesh, std::int64_t iteration,
                         PerturbResult* result) const {
   const bool last = iteration == iterations_;
-  if (progress_ && iteration > 0 && (last || IsMark(iteration, iterations_, 100))) {
-    progress_(iteration, iterations_);
-  }
+  if (progress_ && iteration > 0) progress_(iteration, iterations_);
   if (history_ && (last || IsMark(iteration, iterations_, kHistoryCounts))) {
     result->history.push_back({iteration, CountAntipodalPairs(mesh.mesh(), pairs_)});
   }

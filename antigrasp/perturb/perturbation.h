@@ -54,7 +54,7 @@ bool BeginPerturbation(const TriangleMesh& mesh, PerturbResult* result);
 // Takes the mesh over and looks at it once more.
 void EndPerturbation(const EditableMesh& mesh, PerturbResult* result);
 
-// Called once an iteration: reports progress in hundredths, counts |F_a| when it is time to.
+// Called once an iteration: reports progress, counts |F_a| when it is time to.
 class PerturbClock {
  public:
   PerturbClock(std::int64_t iterations, bool history, const PairLimits& pairs,

@@ -98,6 +98,7 @@ TEST(Cli, RefusesBadInputInOneLineAndWritesNothing) {
   ExpectRefused("evaluate " + dir + "none --preset eggs", "one of default, dexnet, egad");
   ExpectRefused("quality " + dir + "none.csv", "no such file");
   ExpectRefused("export " + dir + "not.h5 --out " + dir + "e", "not.h5");
+  ExpectRefused("export " + dir + "not.h5 --size-mm nan --out " + dir + "e", "nan");
   ExpectRefused("info " + dir + "not.h5", "not.h5");
   ExpectRefused("info " + dir, "not the folder of a run");
   ExpectRefused("dataset make spheres --out " + dir + "x.h5", "spheres");

@@ -141,7 +141,7 @@ TEST(PerturbRandomly, CountsPairsOnTheWayAndReportsItsIterations) {
   EXPECT_EQ(result.history.front().pairs, CountAntipodalPairs(result.start, {}));
   EXPECT_EQ(result.history.back().iteration, 400);
   EXPECT_EQ(result.history.back().pairs, CountAntipodalPairs(result.mesh, {}));
-  EXPECT_EQ(reported.size(), 100u);
+  EXPECT_EQ(reported.size(), 400u);
   EXPECT_EQ(reported.back(), 400);
 }
 

@@ -1,0 +1,157 @@
+#include "antigrasp/app/perturb_output.h"
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numeric>
+
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/format.h"
+#include "antigrasp/mesh/mesh_file.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "," and the number, nothing for a number that does not exist.
+std::string NumberField(double value) {
+  return "," + (std::isnan(value) ? std::string() : FormatDouble(value));
+}
+
+std::string CountField(std::int64_t count) {
+  return "," + (count < 0 ? std::string() : std::to_string(count));
+}
+
+bool IsOk(const PerturbedObject& item) { return item.Status() == "ok"; }
+
+// The first word or two of a status: "after: open: 3 boundary edges" counts as "after: open".
+std::string Reason(const std::string& status) {
+  const std::size_t first = status.find(": ");
+  if (first == std::string::npos) return status;
+  const std::string stage = status.substr(0, first);
+  if (stage != "before" && stage != "after" && stage != "decimated") return stage;
+  return status.substr(0, status.find(": ", first + 2));
+}
+
+}  // namespace
+
+std::string PerturbedObject::Status() const {
+  if (!object.ok()) return "before: " + object.status;
+  if (interrupted) return "interrupted";
+  return scored.result.failure.empty() ? "ok" : scored.result.failure;
+}
+
+std::string PerturbCsv(const std::vector<PerturbedObject>& objects) {
+  std::string csv =
+      "object,status,faces_before,faces_after,pairs_before,pairs_after,graspability_before,"
+      "graspability_after,difference,normal_max_deg,normal_mean_deg,hausdorff_pct,chamfer_pct,"
+      "volume_change_pct,center_of_mass_pct,iterations,moved,no_gain,refused\n";
+  for (const PerturbedObject& item : objects) {
+    const ScoredPerturbation& s = item.scored;
+    csv += CsvField(item.object.name) + "," + CsvField(item.Status()) + "," +
+           std::to_string(item.object.mesh.faces.size()) + "," +
+           std::to_string(s.result.mesh.faces.size());
+    csv += CountField(s.pairs_before) + CountField(s.pairs_after);
+    for (const double value :
+         {s.graspability_before, s.graspability_after, s.graspability_after - s.graspability_before,
+          s.normals.largest, s.normals.mean, s.similarity.hausdorff, s.similarity.chamfer,
+          s.similarity.volume_change, s.similarity.center_of_mass}) {
+      csv += NumberField(item.object.ok() && !item.interrupted ? value : std::nan(""));
+    }
+    const auto& refused = s.result.refused;
+    csv += CountField(s.result.iterations) + CountField(s.result.moved) +
+           CountField(s.result.no_gain) +
+           CountField(std::accumulate(refused.begin(), refused.end(), std::int64_t{0})) + "\n";
+  }
+  return csv;
+}
+
+std::string PerturbHistoryCsv(const std::vector<PerturbedObject>& objects) {
+  std::string csv = "object,iteration,pairs,pairs_below_cone\n";
+  for (const PerturbedObject& item : objects) {
+    for (const PairCount& count : item.scored.result.history) {
+      csv += CsvField(item.object.name) + "," + std::to_string(count.iteration) + "," +
+             std::to_string(count.pairs) + CountField(count.below) + "\n";
+    }
+  }
+  return csv;
+}
+
+std::string PerturbSummary(const std::vector<PerturbedObject>& objects) {
+  std::vector<double> before, after, largest, hausdorff, seconds;
+  std::map<std::string, int> failed;
+  for (const PerturbedObject& item : objects) {
+    if (!IsOk(item)) {
+      ++failed[Reason(item.Status())];
+      continue;
+    }
+    before.push_back(item.scored.graspability_before);
+    after.push_back(item.scored.graspability_after);
+    largest.push_back(item.scored.normals.largest);
+    hausdorff.push_back(item.scored.similarity.hausdorff);
+    seconds.push_back(item.scored.seconds);
+  }
+  const MeanInterval reduction = KappaReduction(before, after);
+  char line[320];
+  std::snprintf(line, sizeof line,
+                "%zu of %zu objects perturbed: mean graspability %.5f -> %.5f, kappa reduced by "
+                "%.1f +-%.1f %% (95 %% over objects, equal draws)\n"
+                "mean over objects: largest turn of a normal %.1f degrees, Hausdorff distance %.2f "
+                "%% of the diagonal, %.2g s of one thread\n",
+                before.size(), objects.size(), MeanWithInterval(before).mean,
+                MeanWithInterval(after).mean, reduction.mean, reduction.half_width,
+                MeanWithInterval(largest).mean, MeanWithInterval(hausdorff).mean,
+                MeanWithInterval(seconds).mean);
+  std::string text = before.empty() ? "no object perturbed\n" : line;
+  if (failed.empty()) return text;
+  std::string reasons;
+  for (const auto& [reason, count] : failed) {
+    reasons += (reasons.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
+  }
+  return text + "failed: " + reasons + "\n";
+}
+
+void CheckPerturbFolder(const std::vector<std::string>& inputs, const fs::path& out) {
+  if (fs::exists(out) && !fs::is_directory(out)) {
+    throw InputError("cannot write into " + out.string(), "--out", "a folder, or nothing there");
+  }
+  for (const std::string& input : inputs) {
+    const fs::path path = fs::absolute(input).lexically_normal();
+    const fs::path folder = fs::is_directory(path) ? path : path.parent_path();
+    if (!IsMeshFile(path) && !fs::is_directory(path)) continue;
+    for (const fs::path& written : {out, out / "before", out / "after"}) {
+      if (fs::exists(written) && fs::equivalent(folder, written)) {
+        throw InputError("the results would be written over the inputs", "--out " + out.string(),
+                         "another folder than that of " + input);
+      }
+    }
+  }
+  fs::path parent = fs::absolute(out);
+  while (!fs::exists(parent)) parent = parent.parent_path();
+  const AtomicFile probe(parent / "perturb.csv");  // refuses what is not writable
+}
+
+void CheckPerturbNames(const std::vector<InputObject>& objects) {
+  std::map<std::string, std::string> object_of;
+  for (const InputObject& object : objects) {
+    const auto [at, fresh] = object_of.emplace(FileNameOf(object.name), object.name);
+    if (!fresh) {
+      throw InputError("two objects for " + at->first + ".stl", at->second + ", " + object.name,
+                       "names that differ by more than folder and extension");
+    }
+  }
+}
+
+void WritePerturbedMeshes(const std::vector<PerturbedObject>& objects, const fs::path& out) {
+  MakeFolder(out / "before");
+  MakeFolder(out / "after");
+  for (const PerturbedObject& item : objects) {
+    const std::string file = FileNameOf(item.object.name) + ".stl";
+    if (!item.scored.before.faces.empty()) WriteMesh(out / "before" / file, item.scored.before);
+    if (IsOk(item)) WriteMesh(out / "after" / file, item.scored.result.mesh);
+  }
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,70 @@
+#include "antigrasp/perturb/scored_perturbation.h"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "antigrasp/core/check.h"
+
+namespace antigrasp {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+double ValueOf(const Graspability& score) {
+  return score.status == GraspabilityStatus::kNotEvaluable ? kNaN : score.value;
+}
+
+}  // namespace
+
+ScoredPerturbation PerturbAndScore(const TriangleMesh& mesh, const PerturbSettings& settings,
+                                   std::uint64_t object, const ProgressFn& progress) {
+  using Clock = std::chrono::steady_clock;
+  ScoredPerturbation out;
+  out.graspability_before = out.graspability_after = kNaN;
+  out.normals = {kNaN, kNaN};
+  out.similarity = {kNaN, kNaN, kNaN, kNaN};
+  out.result.failure = WhyNotPrintable(mesh);
+  if (!out.result.failure.empty()) {
+    out.result.failure = "before: " + out.result.failure;
+    return out;
+  }
+  out.before = InSinglePrecision(mesh);
+  const Graspability before =
+      EvaluateGraspability(out.before, settings.metric, settings.seed, object);
+  out.graspability_before = ValueOf(before);
+  const PairLimits pairs = PairLimitsOf(settings.common, settings.metric.friction, before.scale);
+  RngStream rng(settings.seed, "perturb", object);
+  const auto start = Clock::now();
+  out.result = settings.method(mesh, pairs, settings.common, &rng, progress);
+  out.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  out.pairs_before = CountAntipodalPairs(out.before, pairs);
+  if (out.result.mesh.faces.empty()) return out;
+  out.pairs_after = CountAntipodalPairs(out.result.mesh, pairs);
+  out.graspability_after =
+      ValueOf(EvaluateGraspability(out.result.mesh, settings.metric, settings.seed, object));
+  out.normals = CompareNormals(out.result.start, out.result.mesh);
+  out.similarity = CompareMeshes(out.before, out.result.mesh);
+  return out;
+}
+
+MeanInterval KappaReduction(const std::vector<double>& before, const std::vector<double>& after) {
+  AG_CHECK(before.size() == after.size(), "pairs");
+  std::vector<double> first, second;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (std::isnan(before[i]) || std::isnan(after[i])) continue;
+    first.push_back(before[i]);
+    second.push_back(after[i]);
+  }
+  const double mean_before = MeanWithInterval(first).mean;
+  const double ratio = MeanWithInterval(second).mean / mean_before;
+  // The ratio's deviation is, to first order, the mean of these residuals.
+  std::vector<double> residuals;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    residuals.push_back(100.0 * (second[i] - ratio * first[i]) / mean_before);
+  }
+  const MeanInterval of_residuals = MeanWithInterval(residuals);
+  return {100.0 * (1.0 - ratio), of_residuals.half_width, of_residuals.count};
+}
+
+}  // namespace antigrasp
