@@ -94,14 +94,17 @@ std::string PerturbSummary(const std::vector<PerturbedObject>& objects) {
     seconds.push_back(item.scored.seconds);
   }
   const MeanInterval reduction = KappaReduction(before, after);
-  char line[320];
+  char interval[64] = "", line[320];
+  if (std::isfinite(reduction.half_width)) {  // a single object says nothing about the spread
+    std::snprintf(interval, sizeof interval, " +-%.1f (95 %% over objects)", reduction.half_width);
+  }
   std::snprintf(line, sizeof line,
                 "%zu of %zu objects perturbed: mean graspability %.5f -> %.5f, kappa reduced by "
-                "%.1f +-%.1f %% (95 %% over objects, equal draws)\n"
+                "%.1f%s %%, equal draws\n"
                 "mean over objects: largest turn of a normal %.1f degrees, Hausdorff distance %.2f "
                 "%% of the diagonal, %.2g s of one thread\n",
                 before.size(), objects.size(), MeanWithInterval(before).mean,
-                MeanWithInterval(after).mean, reduction.mean, reduction.half_width,
+                MeanWithInterval(after).mean, reduction.mean, interval,
                 MeanWithInterval(largest).mean, MeanWithInterval(hausdorff).mean,
                 MeanWithInterval(seconds).mean);
   std::string text = before.empty() ? "no object perturbed\n" : line;
