@@ -52,6 +52,18 @@ def search_settings():
     return [Setting(f"search, alpha {alpha}", f"search --alpha {alpha}", 4.0) for alpha in (10, 20)]
 
 
+def search_variants():
+    rows = [Setting("the default", "search", 3.5), Setting("half the steps", "search --steps 150", 1.8),
+            Setting("twice the steps", "search --steps 600", 7.0), Setting("50 grasps a step", "search --grasps 50", 2.0),
+            Setting("a sharper percentile", "search --percentile-softness 0.1", 3.5),
+            Setting("a hard cone for planned grasps", "search --cone-width 0 --acceptance-softness 0.001", 3.5),
+            Setting("steps a third as long", "search --step 0.1", 3.5),
+            Setting("no annealing: the step stays", "search --last-step 1", 3.5),
+            Setting("free extents", "search --no-keep-extents", 3.5),
+            Setting("coarse to fine: 200 smoothing passes", "search --coarse 200", 3.7)]
+    return rows
+
+
 def reading_settings():
     rows = [Setting("the default: alpha 10, original normals, smallest step, pairs by ray, 8 a vertex", "random", 0.6)]
     rows += [Setting(f"step {rule}", f"random --step {rule}", 0.6)
@@ -276,13 +288,13 @@ With the metric's own (27 degrees) the pairs below the cone fall while others jo
 
 def main():
     parser = argparse.ArgumentParser(prog="scripts/reproduce")
-    parser.add_argument("what", choices=("analytic", "readings"))
-    parser.add_argument("--objects", type=int, help="objects a set (100; readings: 40)")
+    parser.add_argument("what", choices=("analytic", "readings", "search"))
+    parser.add_argument("--objects", type=int, help="objects a set (100; readings: 40; search: 20)")
     parser.add_argument("--out", type=pathlib.Path, help="folder of the runs (runs/analytic)")
     arguments = parser.parse_args()
     settings = {"analytic": random_settings() + rotation_settings() + search_settings(),
-                "readings": reading_settings()}[arguments.what]
-    objects = arguments.objects or {"analytic": 100, "readings": 40}[arguments.what]
+                "readings": reading_settings(), "search": search_variants()}[arguments.what]
+    objects = arguments.objects or {"analytic": 100, "readings": 40, "search": 20}[arguments.what]
     started = time.time()
     runner = Runner((arguments.out or pathlib.Path("runs") / arguments.what) / str(objects), objects, settings)
     for kind in SETS:

@@ -122,6 +122,7 @@ class SearchRun {
     for (std::size_t v = 0; v < by_vertex.size(); ++v) {
       by_height[v] = vertex_normals_[v].dot(by_vertex[v]);
     }
+    Smooth(Coarseness(step), &by_height);
     const double length =
         options_.step * std::pow(options_.last_step, double(step) / options_.steps);
     const auto change = adam_.Step(by_height);
@@ -161,6 +162,28 @@ class SearchRun {
   double MetresPerUnit() const {
     if (!(metric_.object_min_extent > 0.0)) return 1.0;
     return metric_.object_min_extent / Bounds(work_).Extent().minCoeff();
+  }
+
+  // Passes of smoothing in this step: options.coarse at first, none from half way on.
+  int Coarseness(int step) const {
+    return static_cast<int>(options_.coarse * std::max(0.0, 1.0 - 2.0 * step / options_.steps));
+  }
+
+  // Every vertex takes the mean of its neighbours' values, its own weighs a third of theirs.
+  void Smooth(int passes, std::vector<double>* values) const {
+    std::vector<double> sum(values->size());
+    for (int pass = 0; pass < passes; ++pass) {
+      std::fill(sum.begin(), sum.end(), 0.0);
+      std::vector<double> weight(values->size(), 0.0);
+      for (const auto& face : start_.faces) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto v = static_cast<std::size_t>(face[k]);
+          sum[v] += (*values)[static_cast<std::size_t>(face[(k + 1) % 3])] + (*values)[v] / 3.0;
+          weight[v] += 4.0 / 3.0;
+        }
+      }
+      for (std::size_t v = 0; v < sum.size(); ++v) (*values)[v] = sum[v] / weight[v];
+    }
   }
 
   // By mean edge lengths.
@@ -219,6 +242,9 @@ void Bind(OptionTable* table, SearchOptions* options) {
   table->Add("search.last_step", &o.last_step, 1e-6, 1.0, "last step as a share of the first");
   table->Add("search.start_noise", &o.start_noise, 0.0, 1.0,
              "random heights to begin with, mean edge lengths");
+  table->Add("search.coarse", &o.coarse, 0, 1e6,
+             "passes that smooth the first derivative over neighbours, falling to none half way: "
+             "long dents first");
   table->Add("search.sweeps", &o.sweeps, 1, 10000,
              "sweeps that turn faces back into their cones after each step");
   table->Add("search.keep_extents", &o.keep_extents,

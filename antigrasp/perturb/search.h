@@ -32,6 +32,7 @@ struct SearchOptions {
   double step = 0.3;          // Adam's first step per vertex, mean edge lengths
   double last_step = 0.1;     // the last one, as a share of the first; geometric in between
   double start_noise = 0.02;  // heights to begin with, mean edge lengths: a flat side has no slope
+  int coarse = 0;             // passes that smooth the first derivative over the surface, see Bind
   int sweeps = 10;            // of the projection in a step
   bool keep_extents = true;
   int candidates = 5;      // states that are scored

@@ -172,6 +172,21 @@ TEST(TurnBack, LeavesAMeshInsideItsConesAlone) {
   EXPECT_EQ(moved.vertices, before.vertices);
 }
 
+TEST(PerturbBySearch, FromCoarseToFineMovesTheSurfaceFurtherUnderTheSameLimit) {
+  const TriangleMesh mesh = Cylinders(1).front();
+  SearchOptions fine = Quick(10.0), coarse = fine;
+  coarse.coarse = 100;
+  double distance[2];
+  for (const int i : {0, 1}) {
+    RngStream rng(1, "perturb");
+    const PerturbResult result = PerturbBySearch(mesh, {}, i == 0 ? fine : coarse, &rng);
+    EXPECT_LE(CompareNormals(result.start, result.mesh).largest, 10.0);
+    EXPECT_TRUE(Inspect(result.mesh).IsSolid());
+    distance[i] = CompareMeshes(result.start, result.mesh).chamfer;
+  }
+  EXPECT_GT(distance[1], 1.5 * distance[0]);
+}
+
 TEST(PerturbBySearch, LowersGraspabilityOnGraspsItNeverSawWithinItsLimits) {
   // Plain IV-B lowers it by 8 % at 10 degrees and 33 % at 20; the noise of one mean is 4 %.
   const std::vector<TriangleMesh> meshes = Cylinders(4);
