@@ -14,7 +14,7 @@ torch::Tensor LeakyRelu(torch::Tensor x) { return torch::leaky_relu_(x, kLeak); 
 
 DiscriminatorImpl::DiscriminatorImpl(const ModelOptions& options) : options_(options) {
   const std::int64_t c = options_.width;
-  const std::vector<std::vector<std::int64_t>> shapes = {{c, 1, 4, 4, 4},
+  const std::vector<std::vector<std::int64_t>> shapes = {{c, options.pack, 4, 4, 4},
                                                          {2 * c, c, 4, 4, 4},
                                                          {4 * c, 2 * c, 4, 4, 4},
                                                          {8 * c, 4 * c, 4, 4, 4},
@@ -44,7 +44,8 @@ torch::Tensor DiscriminatorImpl::forward(const torch::Tensor& sdf) {
 }
 
 torch::Tensor DiscriminatorImpl::ForwardFolded(const torch::Tensor& folded) {
-  torch::Tensor x = LeakyRelu(DownConv(folded, weights_[0](), biases_[0]));  // [N, c, 16, 16, 16]
+  const auto packed = folded.reshape({-1, 8 * options_.pack, 17, 17, 17});
+  torch::Tensor x = LeakyRelu(DownConv(packed, weights_[0](), biases_[0]));  // [N, c, 16, 16, 16]
   x = LeakyRelu(DownConv(Fold(x), weights_[1](), biases_[1]));               // [N, 2c, 8, 8, 8]
   x = LeakyRelu(DownConv(Fold(x), weights_[2](), biases_[2]));               // [N, 4c, 4, 4, 4]
   x = LeakyRelu(DownConv(Fold(x), weights_[3](), biases_[3]));               // [N, 8c, 2, 2, 2]

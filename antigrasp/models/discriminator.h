@@ -10,7 +10,7 @@
 
 namespace antigrasp {
 
-// D : [-1, 1]^{32x32x32} -> R (paper V-A). sdf [N, 1, 32, 32, 32] -> score [N]. The generator
+// D : [-1, 1]^{32x32x32} -> R (paper V-A). sdf [pack N, 1, 32, 32, 32] -> score [N]. The generator
 // mirrored: four convolutions (kernel 4, stride 2) with LeakyReLU 0.2 and a linear head, every
 // weight spectrally normalised, no batch norm. A forward in training mode makes one power
 // iteration per layer.
@@ -19,7 +19,7 @@ class DiscriminatorImpl : public torch::nn::Module {
   explicit DiscriminatorImpl(const ModelOptions& options);  // weights of a fixed stream
   torch::Tensor forward(const torch::Tensor& sdf);
 
-  // The same for grids folded as folding.h says, [N, 8, 17, 17, 17].
+  // The same for grids folded as folding.h says, [pack N, 8, 17, 17, 17].
   torch::Tensor ForwardFolded(const torch::Tensor& folded);
 
   void Initialize(RngStream* rng);  // fresh weights

@@ -9,6 +9,8 @@ void Bind(OptionTable* table, ModelOptions* options) {
   table->Add("model.resolution", &options->resolution, 32, 32, "nodes along one side of the grid");
   table->Add("model.spectral_norm", &options->spectral_norm,
              "divide the discriminator's weights by their largest singular value");
+  table->Add("model.pack", &options->pack, 1, 64,
+             "shapes that the discriminator judges together (PacGAN); divides gan.batch");
   table->Add("model.batch_norm", &options->batch_norm, "batch normalisation in the generator");
   table->Add("model.output_blur", &options->output_blur,
              "smooth the generator's output with [1 2 1]/4 along each axis, before tanh");

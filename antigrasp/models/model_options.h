@@ -10,8 +10,11 @@ struct ModelOptions {
   int latent = 200;           // z in R^200 (paper V-A)
   int resolution = 32;        // 32 only
   bool spectral_norm = true;  // on the discriminator; off reproduces VI-D
-  bool batch_norm = true;     // in the generator
-  bool output_blur = true;    // [1 2 1]/4 before tanh
+  // Shapes that the discriminator judges together, as channels of one input (PacGAN, Lin et al.,
+  // NeurIPS 2018): a generator that repeats itself is found out. 1 = the paper.
+  int pack = 1;
+  bool batch_norm = true;   // in the generator
+  bool output_blur = true;  // [1 2 1]/4 before tanh
   // A network value v stands for the distance truncation * v, clamped; 0 = raw distances times
   // raw_scale.
   double truncation = 0.1;

@@ -123,9 +123,9 @@ torch::Tensor GanTrainer::Impl::FakeBatch(RngStream* rng) {
 
 double GanTrainer::Impl::UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake) {
   const torch::Tensor score =
-      discriminator->ForwardFolded(torch::cat({real, fake.detach()}));            // [2 batch]
-  const torch::Tensor loss = DiscriminatorLoss(score.slice(0, 0, options.batch),  //
-                                               score.slice(0, options.batch));
+      discriminator->ForwardFolded(torch::cat({real, fake.detach()}));  // [2 batch / pack]
+  const auto halves = score.chunk(2);
+  const torch::Tensor loss = DiscriminatorLoss(halves[0], halves[1]);
   const double value = FiniteLoss(loss);
   adam_discriminator.Step(torch::autograd::grad({loss}, adam_discriminator.parameters()),
                           options.learning_rate_d * LearningRateFactor());

@@ -64,6 +64,10 @@ void Validate(const RunConfig& config, const std::string& origin) {
     throw InputError("cem.keep = " + std::to_string(config.cem.keep), origin,
                      "at most cem.samples = " + std::to_string(config.cem.samples));
   }
+  if (config.gan.batch % config.model.pack != 0) {
+    throw InputError("model.pack = " + std::to_string(config.model.pack), origin,
+                     "a divisor of gan.batch = " + std::to_string(config.gan.batch));
+  }
 }
 
 }  // namespace antigrasp

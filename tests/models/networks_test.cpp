@@ -118,13 +118,15 @@ TEST(Generator, WeightsDependOnTheStreamOnly) {
   EXPECT_FALSE(torch::equal(a->parameters()[0], b->parameters()[0]));
 }
 
-TEST(Discriminator, EqualsThePlainLayers) {
+// Packed shapes are channels of one input.
+void ExpectPlainLayers(int pack) {
   ModelOptions options = TinyModel();
   options.spectral_norm = false;
+  options.pack = pack;
   Discriminator discriminator(options);
   const auto parameters = discriminator->named_parameters();
-  const torch::Tensor grid = Latent(3, 32 * 32 * 32).view({3, 1, 32, 32, 32});
-  torch::Tensor x = grid;
+  const torch::Tensor grid = Latent(3 * pack, 32 * 32 * 32).view({3 * pack, 1, 32, 32, 32});
+  torch::Tensor x = grid.view({3, pack, 32, 32, 32});
   for (int i = 1; i <= 4; ++i) {
     const std::string name = std::to_string(i);
     x = torch::leaky_relu(
@@ -136,6 +138,9 @@ TEST(Discriminator, EqualsThePlainLayers) {
   EXPECT_EQ(score.sizes(), (std::vector<std::int64_t>{3}));
   EXPECT_LT((score - x).abs().max().item<double>(), 1e-5 * (1 + x.abs().max().item<double>()));
 }
+
+TEST(Discriminator, EqualsThePlainLayers) { ExpectPlainLayers(1); }
+TEST(Discriminator, EqualsThePlainLayersOnPackedShapes) { ExpectPlainLayers(4); }
 
 TEST(Discriminator, SpectralNormBoundsItsSlope) {
   // Every layer has a stretch of at most 1 per patch; each node is in 2^3 patches of a strided

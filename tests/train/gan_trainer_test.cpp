@@ -222,6 +222,18 @@ TEST(GanTrainer, MoreDiscriminatorStepsAndNoSpectralNormRun) {
   EXPECT_TRUE(trainer.Sample(1, 0, 4).isfinite().all().item<bool>());
 }
 
+TEST(GanTrainer, APackedDiscriminatorTrainsAndItsFirstLossesAreTheHinge) {
+  ModelOptions model = TinyModel();
+  model.pack = 2;
+  GanTrainer trainer(model, TinyGan(), 5, torch::kCPU);
+  trainer.BeginEpisode(0, 2, true);
+  const GanLosses losses = trainer.Step(Spheres(4));
+  EXPECT_NEAR(losses.discriminator, 2.0, 0.7);
+  EXPECT_NEAR(losses.generator, 0.0, 0.7);
+  trainer.Step(Spheres(4));
+  EXPECT_TRUE(trainer.Sample(1, 0, 4).isfinite().all().item<bool>());
+}
+
 TEST(GanTrainer, NotFiniteLossNamesTheStep) {
   GanTrainer trainer(TinyModel(), TinyGan(), 5, torch::kCPU);
   trainer.BeginEpisode(0, 3, true);

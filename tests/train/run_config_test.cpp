@@ -49,5 +49,13 @@ TEST(RunConfig, RefusesToKeepMoreThanItSamples) {
   EXPECT_THROW(Validate(config, "x"), InputError);
 }
 
+TEST(RunConfig, RefusesABatchThatIsNoWholeNumberOfPacks) {
+  RunConfig config;
+  config.model.pack = 3;
+  EXPECT_THROW(Validate(config, "x"), InputError);
+  config.gan.batch = 33;
+  EXPECT_NO_THROW(Validate(config, "x"));
+}
+
 }  // namespace
 }  // namespace antigrasp
