@@ -88,12 +88,13 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
   WritePerturbedMeshes(objects, out);
   if (settings.common.history) WriteFileAtomic(out / "history.csv", PerturbHistoryCsv(objects));
   WriteFileAtomic(out / "perturb.toml", constants);
+  WritePerturbedSheet(objects, out, flags.threads);
   WriteFileAtomic(out / "perturb.csv", PerturbCsv(objects));  // last: its being there means done
   for (const PerturbedObject& item : objects) {
     if (item.Status() != "ok") spdlog::warn("{}: {}", item.object.name, item.Status());
   }
-  std::printf("%smeshes before and after and perturb.csv in %s\n", PerturbSummary(objects).c_str(),
-              flags.out.c_str());
+  std::printf("%smeshes before and after, their picture (sheet.png) and perturb.csv in %s\n",
+              PerturbSummary(objects).c_str(), flags.out.c_str());
   if (InterruptRequested()) throw Interrupted();
 }
 
@@ -105,7 +106,7 @@ void AddMethod(CLI::App* perturb, const std::string& name, const std::string& he
   CLI::App* command = perturb->add_subcommand(name, help);
   const auto flags = std::make_shared<PerturbFlags>();
   command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
-  command->add_option("--out", flags->out, "folder for before/, after/ and perturb.csv")
+  command->add_option("--out", flags->out, "folder for before/, after/, sheet.png and perturb.csv")
       ->required();
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
   command->add_option("--threads", flags->threads, "threads; 0 = all; results do not depend on it")

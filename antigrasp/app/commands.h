@@ -16,6 +16,7 @@ void AddPerturbCommand(CLI::App* app);
 void AddShapeCommand(CLI::App* app);
 void AddPosesCommand(CLI::App* app);
 void AddTrialCommand(CLI::App* app);
+void AddSheetCommand(CLI::App* app);
 void AddExportCommand(CLI::App* app);
 void AddInfoCommand(CLI::App* app);
 

@@ -98,8 +98,9 @@ std::vector<Source> ListSources(const std::vector<std::string>& inputs) {
 }  // namespace
 
 std::vector<InputObject> LoadObjects(const std::vector<std::string>& inputs, int threads,
-                                     const ProgressFn& progress) {
-  const std::vector<Source> sources = ListSources(inputs);
+                                     const ProgressFn& progress, std::size_t limit) {
+  std::vector<Source> sources = ListSources(inputs);
+  if (limit > 0 && sources.size() > limit) sources.resize(limit);
   if (sources.empty()) throw InputError("no object", inputs.front(), kExpected);
   std::vector<InputObject> objects(sources.size());
   ParallelFor(

@@ -21,9 +21,10 @@ struct InputObject {
 // Mesh files, folders (searched recursively) and SDF files, in the order given, sorted inside a
 // folder. A mesh is usable when it is closed and oriented after repair. InputError for a missing
 // path, for a file of unknown kind, for an unreadable file that was named itself, and for no object
-// at all; an unreadable mesh inside a folder is an object with that status.
+// at all; an unreadable mesh inside a folder is an object with that status. `limit`: at most the
+// first so many; 0 = all.
 std::vector<InputObject> LoadObjects(const std::vector<std::string>& inputs, int threads,
-                                     const ProgressFn& progress = nullptr);
+                                     const ProgressFn& progress = nullptr, std::size_t limit = 0);
 
 // A file name for an object's name: path separators become underscores, an extension is dropped.
 std::string FileNameOf(const std::string& object_name);

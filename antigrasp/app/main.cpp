@@ -58,6 +58,7 @@ int Run(int argc, char** argv) {
   AddShapeCommand(&app);
   AddPosesCommand(&app);
   AddTrialCommand(&app);
+  AddSheetCommand(&app);
   AddExportCommand(&app);
   AddInfoCommand(&app);
   AddHelpCommand(&app, &topic);

@@ -9,11 +9,14 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/render/contact_sheet.h"
 
 namespace antigrasp {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kSheetColumns = 8;
 
 // "," and the number, nothing for a number that does not exist.
 std::string NumberField(double value) {
@@ -155,6 +158,17 @@ void WritePerturbedMeshes(const std::vector<PerturbedObject>& objects, const fs:
     if (!item.scored.before.faces.empty()) WriteMesh(out / "before" / file, item.scored.before);
     if (IsOk(item)) WriteMesh(out / "after" / file, item.scored.result.mesh);
   }
+}
+
+void WritePerturbedSheet(const std::vector<PerturbedObject>& objects, const fs::path& out,
+                         int threads) {
+  std::vector<std::vector<const TriangleMesh*>> rows(2);
+  for (const PerturbedObject& item : objects) {
+    if (!IsOk(item) || rows[0].size() == kSheetColumns) continue;
+    rows[0].push_back(&item.scored.before);
+    rows[1].push_back(&item.scored.result.mesh);
+  }
+  if (!rows[0].empty()) WritePng(out / "sheet.png", ContactSheet(rows, View{}, threads));
 }
 
 }  // namespace antigrasp

@@ -35,4 +35,8 @@ void CheckPerturbNames(const std::vector<InputObject>& objects);
 void WritePerturbedMeshes(const std::vector<PerturbedObject>& objects,
                           const std::filesystem::path& out);
 
+// out/sheet.png: the first printable results, and above each what it was. Nothing without one.
+void WritePerturbedSheet(const std::vector<PerturbedObject>& objects,
+                         const std::filesystem::path& out, int threads);
+
 }  // namespace antigrasp

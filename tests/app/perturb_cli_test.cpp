@@ -123,7 +123,7 @@ TEST(PerturbCli, WritesTheSameBytesForAnyNumberOfThreadsAndOthersForAnotherSeed)
   ASSERT_EQ(Antigrasp(random + "2 --threads 3").code, 0);
   ASSERT_EQ(Antigrasp(random + "3 --seed 2").code, 0);
   const auto contents = Contents(folder / "1");
-  EXPECT_EQ(contents.size(), 8u);  // 3 meshes, 3 originals, perturb.csv, perturb.toml
+  EXPECT_EQ(contents.size(), 9u);  // 3 meshes, 3 originals, perturb.csv, perturb.toml, sheet.png
   EXPECT_TRUE(contents == Contents(folder / "2"));
   EXPECT_FALSE(contents == Contents(folder / "3"));
   const std::string rotation = "perturb rotation --history" + common;
