@@ -229,6 +229,22 @@ def figure_1(path, runner):
     figure.savefig(path, dpi=110, metadata={"Software": None})
 
 
+def picture(path, columns, runner):
+    """A row of originals, then one per setting: the same three, three and two objects of the sets."""
+    names = [(kind, f"{kind}-{i:06d}.stl") for kind, count in zip(SETS, (3, 3, 2)) for i in range(count)]
+    rows = []
+    for place, setting in enumerate([None, *columns]):
+        row = runner.out / "picture" / str(place)
+        shutil.rmtree(row, ignore_errors=True)
+        row.mkdir(parents=True)
+        for number, (kind, name) in enumerate(names):
+            source = runner.out / kind / (setting or columns[0]).folder / ("after" if setting else "before") / name
+            if source.exists():
+                shutil.copy(source, row / f"{number}.stl")
+        rows.append(row)
+    runner.call("sheet", *rows, "--pixels", 180, "--out", path)
+
+
 def write_section(name, text):
     """Replaces what stands between the section's marks in the document, or adds it."""
     begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
@@ -246,6 +262,7 @@ def analytic(runner, objects, started):
     tables = [table(part, runner) for part in (random, rotation, search)]
     histograms(IMAGES / "analytic_random.png", random[:3] + search, runner)
     histograms(IMAGES / "analytic_rotation.png", rotation[1:7], runner)
+    picture(IMAGES / "perturbed.png", [random[0], random[2], rotation[5], *search], runner)
     figure_1(IMAGES / "analytic_exhaustive.png", runner)
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
     write_section("analytic", f"""
@@ -279,6 +296,10 @@ With the metric's own (27 degrees) the pairs below the cone fall while others jo
 ### Search (not in the paper)
 
 {tables[2]}
+
+![Rows of objects, originals first](images/perturbed.png)
+
+From above: originals, random at alpha 10 and 20, rotation at beta 0.075 with 10 x iterations, search at alpha 10 and 20.
 
 ![Histograms of graspability before and after random perturbation and search](images/analytic_random.png)
 

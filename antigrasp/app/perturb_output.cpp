@@ -99,11 +99,11 @@ std::string PerturbSummary(const std::vector<PerturbedObject>& objects) {
   const MeanInterval reduction = KappaReduction(before, after);
   char interval[64] = "", line[320];
   if (std::isfinite(reduction.half_width)) {  // a single object says nothing about the spread
-    std::snprintf(interval, sizeof interval, " +-%.1f (95 %% over objects)", reduction.half_width);
+    std::snprintf(interval, sizeof interval, " +-%.1f", reduction.half_width);
   }
   std::snprintf(line, sizeof line,
                 "%zu of %zu objects perturbed: mean graspability %.5f -> %.5f, kappa reduced by "
-                "%.1f%s %%, equal draws\n"
+                "%.1f%s %%\n"
                 "mean over objects: largest turn of a normal %.1f degrees, Hausdorff distance %.2f "
                 "%% of the diagonal, %.2g s of one thread\n",
                 before.size(), objects.size(), MeanWithInterval(before).mean,

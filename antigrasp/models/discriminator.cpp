@@ -1,5 +1,8 @@
 #include "antigrasp/models/discriminator.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "antigrasp/models/folding.h"
 
 namespace antigrasp {
@@ -37,6 +40,16 @@ void DiscriminatorImpl::Initialize(RngStream* rng) {
   for (torch::Tensor& bias : biases_) {
     bias.zero_();
   }
+}
+
+double DiscriminatorImpl::LargestSigma() {
+  if (!options_.spectral_norm) return std::numeric_limits<double>::quiet_NaN();
+  torch::NoGradGuard no_grad;
+  double largest = 0.0;
+  for (SpectralWeight& weight : weights_) {
+    largest = std::max(largest, weight->Sigma().item<double>());
+  }
+  return largest;
 }
 
 torch::Tensor DiscriminatorImpl::forward(const torch::Tensor& sdf) {

@@ -24,6 +24,9 @@ class DiscriminatorImpl : public torch::nn::Module {
 
   void Initialize(RngStream* rng);  // fresh weights
 
+  // The largest of the singular values by which the weights are divided; NaN without spectral norm.
+  double LargestSigma();
+
  private:
   ModelOptions options_;
   std::vector<SpectralWeight> weights_;  // four convolutions, then the head

@@ -11,7 +11,9 @@
 namespace antigrasp {
 
 Image::Image(int width_, int height_, Rgb background)
-    : width(width_), height(height_), pixels(static_cast<std::size_t>(width_ * height_), background) {
+    : width(width_),
+      height(height_),
+      pixels(static_cast<std::size_t>(width_ * height_), background) {
   AG_CHECK(width_ >= 0 && height_ >= 0, "an image has a size");
 }
 

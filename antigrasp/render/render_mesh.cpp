@@ -40,12 +40,14 @@ struct Camera {
 // this one by less than the crease, by area.
 class SmoothNormals {
  public:
-  SmoothNormals(const TriangleMesh& mesh, double crease) : mesh_(mesh), faces_of_(mesh.vertices.size()) {
+  SmoothNormals(const TriangleMesh& mesh, double crease)
+      : mesh_(mesh), faces_of_(mesh.vertices.size()) {
     const double cosine = std::cos(crease * kRadians);
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
       cross_.push_back(FaceCross(mesh, f));
       normal_.push_back(cross_[f].normalized());
-      for (const std::int32_t v : mesh.faces[f]) faces_of_[static_cast<std::size_t>(v)].push_back(f);
+      for (const std::int32_t v : mesh.faces[f])
+        faces_of_[static_cast<std::size_t>(v)].push_back(f);
     }
     corners_.resize(mesh.faces.size());
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {

@@ -16,9 +16,10 @@ struct View {
 };
 
 // A parallel projection of the mesh on white. The ball around the middle of its bounding box that
-// holds it fills the picture: the same size from everywhere. Cast with Embree, shaded by a light that moves with the camera. No
-// display or GPU; the same pixels on any machine and for any number of threads. An empty mesh is
-// white. Finite vertices. 30 ms for 256 pixels and 3,000 faces, single thread.
+// holds it fills the picture: the same size from everywhere. Cast with Embree, shaded by a light
+// that moves with the camera. No display or GPU; the same pixels on any machine and for any number
+// of threads. An empty mesh is white. Finite vertices. 30 ms for 256 pixels and 3,000 faces, single
+// thread.
 Image RenderMesh(const TriangleMesh& mesh, const View& view = {});
 
 }  // namespace antigrasp

@@ -3,8 +3,9 @@
 #include <spdlog/spdlog.h>
 #include <torch/torch.h>
 
-#include <array>
+#include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/core/atomic_file.h"
@@ -13,6 +14,7 @@
 #include "antigrasp/core/rng.h"
 #include "antigrasp/train/elites.h"
 #include "antigrasp/train/run_output.h"
+#include "antigrasp/train/scalar_log.h"
 
 namespace antigrasp {
 namespace {
@@ -31,6 +33,7 @@ class EpisodeLoop {
   void Restore();
   void ScorePrior();
   void TrainEpisode();
+  StepReport TrainStep();
   torch::Tensor SampleStage();
   std::vector<std::int64_t> Select(const ScoredStage& scored) const;
   void Record(const ScoredStage& scored, const std::vector<std::int64_t>& elites);
@@ -39,6 +42,8 @@ class EpisodeLoop {
                             const std::vector<std::int64_t>& elites) const;
   void Save(const fs::path& path, bool finished = false) const;
   int episode() const { return trainer_.episode(); }
+  std::int64_t UpdatesSoFar() const;  // over all episodes
+  void LogScalars(const LossRow& row, double updates_per_second);
 
   const RunConfig& config_;
   const RunFolder& folder_;
@@ -46,7 +51,8 @@ class EpisodeLoop {
   GanTrainer trainer_;
   torch::Tensor prior_;   // network values of the prior set, float16
   torch::Tensor shapes_;  // what the current episode trains on, float16
-  std::vector<std::array<double, 3>> losses_;
+  std::vector<LossRow> losses_;
+  std::optional<ScalarLog> log_;
   std::vector<StageStatistics> rows_;
   bool finished_ = false;
 };
@@ -60,6 +66,8 @@ EpisodeLoop::EpisodeLoop(const RunConfig& config, const RunFolder& folder, RunOb
 std::vector<StageStatistics> EpisodeLoop::Run() {
   Restore();
   if (finished_) return rows_;
+  MakeFolder(folder_.Events().parent_path());
+  log_.emplace(folder_.Events(), UpdatesSoFar());
   if (rows_.empty()) ScorePrior();
   while (true) {
     TrainEpisode();             // theta: the GAN on the shapes
@@ -88,9 +96,14 @@ void EpisodeLoop::Restore() {
   rows_ = StatisticsFromCsv(checkpoint.statistics, folder_.Latest().string());
   finished_ = checkpoint.finished;
   const torch::Tensor losses = checkpoint.losses.contiguous();
-  const double* data = losses.data_ptr<double>();
+  if (losses.dim() != 2 || losses.size(1) != static_cast<std::int64_t>(kLossColumns.size())) {
+    throw InputError("losses of another shape", folder_.Latest().string(),
+                     "a checkpoint of this version");
+  }
   for (std::int64_t i = 0; i < losses.size(0); ++i) {
-    losses_.push_back({data[3 * i], data[3 * i + 1], data[3 * i + 2]});
+    LossRow row;
+    std::copy_n(losses[i].data_ptr<double>(), row.size(), row.begin());
+    losses_.push_back(row);
   }
   if (!finished_) {
     spdlog::info("resuming {} at episode {}, update {} of {}", folder_.root.string(), episode(),
@@ -114,12 +127,17 @@ void EpisodeLoop::ScorePrior() {
 }
 
 void EpisodeLoop::TrainEpisode() {
+  using Clock = std::chrono::steady_clock;
   const ProgressFn progress = observer_->Phase(StageName(episode(), "training"));
+  Clock::time_point recorded = Clock::now();
   while (trainer_.step() < trainer_.iterations()) {
-    const GanLosses losses = trainer_.Step(shapes_);
+    const StepReport report = TrainStep();
     if (trainer_.step() % kRecordEvery == 0) {
-      losses_.push_back({double(trainer_.step()), losses.discriminator, losses.generator});
-      observer_->Detail(LossText(losses.discriminator, losses.generator));
+      losses_.push_back(RowOf(trainer_.step(), report));
+      observer_->Detail(LossText(report));
+      const std::chrono::duration<double> passed = Clock::now() - recorded;
+      recorded = Clock::now();
+      LogScalars(losses_.back(), kRecordEvery / passed.count());
     }
     const bool stop = observer_->StopRequested();
     if (stop || trainer_.step() % config_.cem.checkpoint_every == 0) Save(folder_.Latest());
@@ -129,6 +147,16 @@ void EpisodeLoop::TrainEpisode() {
   MakeFolder(folder_.Episode(episode()));
   Save(folder_.EpisodeCheckpoint(episode()));
   Save(folder_.Latest());
+}
+
+StepReport EpisodeLoop::TrainStep() {
+  try {
+    return trainer_.Step(shapes_);
+  } catch (const RuntimeFailure& failure) {
+    if (!fs::exists(folder_.Latest())) throw;
+    throw RuntimeFailure(std::string(failure.what()) + "; the last good state is in " +
+                         folder_.Latest().string());
+  }
 }
 
 torch::Tensor EpisodeLoop::SampleStage() {
@@ -175,6 +203,7 @@ void EpisodeLoop::Record(const ScoredStage& scored, const std::vector<std::int64
   WriteFileAtomic(folder_.Episode(episode()) / "losses.csv", LossesCsv(losses_));
   WriteFileAtomic(folder_.Statistics(), StatisticsToCsv(rows_));
   WriteElites(folder_.Episode(episode()) / "elites.h5", scored, elites, episode(), config_);
+  log_->Add(UpdatesSoFar(), StageScalars(row, rows_));
   LogStage(row, rows_);
   WarnIfCollapsed(row, rows_);
 }
@@ -199,17 +228,34 @@ void EpisodeLoop::BeginEpisode(int episode) {
   Save(folder_.Latest());
 }
 
+std::int64_t EpisodeLoop::UpdatesSoFar() const {
+  const std::int64_t before =
+      episode() == 0 ? 0
+                     : config_.cem.prior_iterations + (episode() - 1LL) * config_.cem.iterations;
+  return before + trainer_.step();
+}
+
+void EpisodeLoop::LogScalars(const LossRow& row, double updates_per_second) {
+  std::vector<std::pair<std::string, double>> scalars = {
+      {"training/updates_per_second", updates_per_second}};
+  for (std::size_t i = 1; i < row.size(); ++i) {
+    scalars.emplace_back("training/" + std::string(kLossColumns[i]), row[i]);
+  }
+  log_->Add(UpdatesSoFar(), scalars);
+}
+
 void EpisodeLoop::Save(const fs::path& path, bool finished) const {
   Checkpoint checkpoint;
   checkpoint.config = ToToml(config_);
   checkpoint.statistics = StatisticsToCsv(rows_);
   checkpoint.shapes = shapes_;
   checkpoint.finished = finished;
-  checkpoint.losses = torch::zeros({static_cast<std::int64_t>(losses_.size()), 3}, torch::kDouble);
+  const auto columns = static_cast<std::int64_t>(kLossColumns.size());
+  checkpoint.losses =
+      torch::zeros({static_cast<std::int64_t>(losses_.size()), columns}, torch::kDouble);
   for (std::size_t i = 0; i < losses_.size(); ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      checkpoint.losses[static_cast<std::int64_t>(i)][static_cast<std::int64_t>(j)] = losses_[i][j];
-    }
+    double* row = checkpoint.losses[static_cast<std::int64_t>(i)].data_ptr<double>();
+    std::copy(losses_[i].begin(), losses_[i].end(), row);
   }
   WriteCheckpoint(path, checkpoint, [&](auto* archive) { trainer_.Save(archive); });
 }

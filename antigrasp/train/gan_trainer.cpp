@@ -64,11 +64,13 @@ struct GanTrainer::Impl {
   void RestartNetworks(int episode_index);
   torch::Tensor RealBatch(const torch::Tensor& shapes, RngStream* rng) const;
   torch::Tensor FakeBatch(RngStream* rng);
-  double UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake);
-  double UpdateGenerator(const torch::Tensor& fake);
+  void UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake,
+                           StepReport* report);
+  void UpdateGenerator(const torch::Tensor& fake, StepReport* report);
   void UpdateAverage();
   void RefreshStatistics();
-  double FiniteLoss(const torch::Tensor& loss) const;
+  double Finite(const char* what, const torch::Tensor& value) const;
+  double FiniteNorm(const std::vector<torch::Tensor>& gradients) const;
   double LearningRateFactor() const;
   double AverageDecay() const;
   NamedTensors State(const torch::Tensor& progress) const;
@@ -121,37 +123,47 @@ torch::Tensor GanTrainer::Impl::FakeBatch(RngStream* rng) {
   return generator->ForwardFolded(NormalTensor({options.batch, model.latent}, 1.0, rng).to(device));
 }
 
-double GanTrainer::Impl::UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake) {
+void GanTrainer::Impl::UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake,
+                                           StepReport* report) {
   const torch::Tensor score =
       discriminator->ForwardFolded(torch::cat({real, fake.detach()}));  // [2 batch / pack]
   const auto halves = score.chunk(2);
   const torch::Tensor loss = DiscriminatorLoss(halves[0], halves[1]);
-  const double value = FiniteLoss(loss);
-  adam_discriminator.Step(torch::autograd::grad({loss}, adam_discriminator.parameters()),
-                          options.learning_rate_d * LearningRateFactor());
-  return value;
+  report->loss_discriminator = Finite("loss", loss);
+  const auto gradients = torch::autograd::grad({loss}, adam_discriminator.parameters());
+  report->gradient_discriminator = FiniteNorm(gradients);
+  report->rate_discriminator = options.learning_rate_d * LearningRateFactor();
+  adam_discriminator.Step(gradients, report->rate_discriminator);
 }
 
-double GanTrainer::Impl::UpdateGenerator(const torch::Tensor& fake) {
+void GanTrainer::Impl::UpdateGenerator(const torch::Tensor& fake, StepReport* report) {
   // In two legs, so that the discriminator's own gradients are not computed.
   const torch::Tensor input = fake.detach().requires_grad_();
   const torch::Tensor loss = GeneratorLoss(discriminator->ForwardFolded(input));
-  const double value = FiniteLoss(loss);
+  report->loss_generator = Finite("loss", loss);
   const auto grad_input = torch::autograd::grad({loss}, {input});
-  adam_generator.Step(torch::autograd::grad({fake}, adam_generator.parameters(), grad_input),
-                      options.learning_rate_g * LearningRateFactor());
-  return value;
+  const auto gradients = torch::autograd::grad({fake}, adam_generator.parameters(), grad_input);
+  report->gradient_generator = FiniteNorm(gradients);
+  report->rate_generator = options.learning_rate_g * LearningRateFactor();
+  adam_generator.Step(gradients, report->rate_generator);
 }
 
-// Asked before the update, so that the weights stay finite and can still be saved.
-double GanTrainer::Impl::FiniteLoss(const torch::Tensor& loss) const {
-  const double value = loss.item<double>();
-  if (!std::isfinite(value)) {
-    throw RuntimeFailure("training diverged: a loss is not finite at step " + std::to_string(step) +
-                         " of episode " + std::to_string(episode) +
+// Asked before the update, so that the weights stay finite.
+double GanTrainer::Impl::Finite(const char* what, const torch::Tensor& value) const {
+  const auto number = value.item<double>();
+  if (!std::isfinite(number)) {
+    throw RuntimeFailure("training diverged: a " + std::string(what) + " is not finite at step " +
+                         std::to_string(step) + " of episode " + std::to_string(episode) +
                          " (lower gan.learning_rate_g and gan.learning_rate_d)");
   }
-  return value;
+  return number;
+}
+
+double GanTrainer::Impl::FiniteNorm(const std::vector<torch::Tensor>& gradients) const {
+  torch::NoGradGuard no_grad;
+  std::vector<torch::Tensor> norms;
+  for (const torch::Tensor& gradient : gradients) norms.push_back(gradient.norm());
+  return Finite("gradient", torch::stack(norms).norm());
 }
 
 double GanTrainer::Impl::LearningRateFactor() const {
@@ -234,7 +246,7 @@ void GanTrainer::BeginEpisode(int episode, std::int64_t iterations, bool restart
   t.statistics_stale = true;
 }
 
-GanLosses GanTrainer::Step(const torch::Tensor& shapes) {
+StepReport GanTrainer::Step(const torch::Tensor& shapes) {
   Impl& t = *impl_;
   AG_CHECK(t.step < t.iterations, "the episode is over");
   AG_CHECK(shapes.dim() == 5 && shapes.size(0) > 0, "shapes must be [N, 1, 32, 32, 32], N > 0");
@@ -242,7 +254,7 @@ GanLosses GanTrainer::Step(const torch::Tensor& shapes) {
                 static_cast<std::uint64_t>(t.step));
   t.generator->train();
   t.discriminator->train();
-  GanLosses losses;
+  StepReport report;
   torch::Tensor fake;
   // The last discriminator update and the generator's share one forward of G: the discriminator
   // sees the fakes detached, then the generator is judged on the same fakes by the updated D.
@@ -251,12 +263,13 @@ GanLosses GanTrainer::Step(const torch::Tensor& shapes) {
     torch::AutoGradMode gradients(k == t.options.discriminator_steps);
     fake = t.FakeBatch(&rng);
     torch::AutoGradMode discriminator_gradients(true);
-    losses.discriminator = t.UpdateDiscriminator(real, fake);
+    t.UpdateDiscriminator(real, fake, &report);
   }
-  losses.generator = t.UpdateGenerator(fake);
+  t.UpdateGenerator(fake, &report);
+  report.largest_sigma = t.discriminator->LargestSigma();
   t.UpdateAverage();
   ++t.step;
-  return losses;
+  return report;
 }
 
 std::int64_t GanTrainer::step() const { return impl_->step; }

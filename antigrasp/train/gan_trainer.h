@@ -11,9 +11,15 @@
 
 namespace antigrasp {
 
-struct GanLosses {
-  double discriminator = 0.0;  // L_D^data + L_D^gen (hinge, V-A)
-  double generator = 0.0;      // L_G
+// What one step was like. Gradient: 2-norm over all parameters of the network.
+struct StepReport {
+  double loss_discriminator = 0.0;  // L_D^data + L_D^gen (hinge, V-A)
+  double loss_generator = 0.0;      // L_G
+  double gradient_discriminator = 0.0;
+  double gradient_generator = 0.0;
+  double rate_discriminator = 0.0;  // Adam's learning rates
+  double rate_generator = 0.0;
+  double largest_sigma = 0.0;  // largest singular value of a discriminator's weight, undivided
 };
 
 // The networks, their average, their optimisers and the step count: all that training changes.
@@ -30,8 +36,9 @@ class GanTrainer {
   void BeginEpisode(int episode, std::int64_t iterations, bool restart_networks);
 
   // One update of D (discriminator_steps of them) and of G. `shapes`: [N, 1, 32, 32, 32] float16 or
-  // float32 network values on the CPU. Losses not finite: RuntimeFailure.
-  GanLosses Step(const torch::Tensor& shapes);
+  // float32 network values on the CPU. A loss or gradient that is not finite: RuntimeFailure before
+  // it reaches the weights.
+  StepReport Step(const torch::Tensor& shapes);
 
   std::int64_t step() const;        // steps done in this episode
   std::int64_t iterations() const;  // of this episode

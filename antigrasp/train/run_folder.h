@@ -14,6 +14,7 @@ struct RunFolder {
   std::filesystem::path PriorScores() const { return root / "prior_scores.csv"; }
   std::filesystem::path Latest() const { return root / "checkpoint.pt"; }
   std::filesystem::path Statistics() const { return root / "statistics.csv"; }
+  std::filesystem::path Events() const { return root / "tensorboard/events.out.tfevents.0.run"; }
   std::filesystem::path Stl() const { return root / "stl"; }
   std::filesystem::path Control() const { return root / "control"; }
   std::filesystem::path Episode(int episode) const {

@@ -30,17 +30,44 @@ std::string StageName(int episode, const std::string& doing) {
   return "episode " + std::to_string(episode) + ": " + doing;
 }
 
-std::string LossText(double discriminator, double generator) {
-  return fmt::format("L_D {:.2f}  L_G {:+.2f}", discriminator, generator);
+LossRow RowOf(std::int64_t step, const StepReport& r) {
+  return {double(step),         r.loss_discriminator, r.loss_generator, r.gradient_discriminator,
+          r.gradient_generator, r.rate_discriminator, r.rate_generator, r.largest_sigma};
 }
 
-std::string LossesCsv(const std::vector<std::array<double, 3>>& losses) {
-  std::string csv = "step,loss_discriminator,loss_generator\n";
-  for (const auto& [step, discriminator, generator] : losses) {
-    csv += FormatDouble(step) + "," + FormatDouble(discriminator) + "," + FormatDouble(generator) +
-           "\n";
+std::string LossesCsv(const std::vector<LossRow>& rows) {
+  std::string csv;
+  const auto append = [&](std::size_t column, const std::string& field) {
+    csv += field + (column + 1 < kLossColumns.size() ? "," : "\n");
+  };
+  for (std::size_t i = 0; i < kLossColumns.size(); ++i) append(i, kLossColumns[i]);
+  for (const LossRow& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      append(i, std::isnan(row[i]) ? std::string() : FormatDouble(row[i]));
+    }
   }
   return csv;
+}
+
+std::string LossText(const StepReport& report) {
+  return fmt::format("L_D {:.2f}  L_G {:+.2f}", report.loss_discriminator, report.loss_generator);
+}
+
+std::vector<std::pair<std::string, double>> StageScalars(const StageStatistics& row,
+                                                         const std::vector<StageStatistics>& rows) {
+  const StageStatistics* prior = FindStage(rows, -1);
+  const double rejected = row.samples > 0 ? double(row.rejected()) / row.samples : 0.0;
+  std::vector<std::pair<std::string, double>> scalars = {
+      {"stage/graspability", row.graspability.mean},
+      {"stage/rejected", rejected},
+      {"stage/coverage", row.coverage},
+      {"stage/near_duplicates", row.duplicates},
+      {"stage/diversity", row.diversity},
+      {"stage/1-NNA", row.nna}};
+  if (prior != nullptr) {
+    scalars.emplace_back("stage/kappa", Ratio(row.graspability, prior->graspability).mean);
+  }
+  return scalars;
 }
 
 void LogStage(const StageStatistics& row, const std::vector<StageStatistics>& rows) {

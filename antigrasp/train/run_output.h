@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "antigrasp/train/gan_trainer.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_folder.h"
 #include "antigrasp/train/stage.h"
@@ -15,8 +17,24 @@ namespace antigrasp {
 // What a run writes and says beside its checkpoints.
 
 std::string StageName(int episode, const std::string& doing);  // "episode 1: scoring"
-std::string LossText(double discriminator, double generator);
-std::string LossesCsv(const std::vector<std::array<double, 3>>& losses);
+
+// A row of episode_K/losses.csv: the step within the episode, then a StepReport in its order.
+inline constexpr std::array<const char*, 8> kLossColumns = {"step",
+                                                            "loss_discriminator",
+                                                            "loss_generator",
+                                                            "gradient_discriminator",
+                                                            "gradient_generator",
+                                                            "rate_discriminator",
+                                                            "rate_generator",
+                                                            "largest_sigma"};
+using LossRow = std::array<double, kLossColumns.size()>;
+LossRow RowOf(std::int64_t step, const StepReport& report);
+std::string LossesCsv(const std::vector<LossRow>& rows);  // a NaN is an empty field
+std::string LossText(const StepReport& report);
+
+// What TensorBoard shows of a stage.
+std::vector<std::pair<std::string, double>> StageScalars(const StageStatistics& row,
+                                                         const std::vector<StageStatistics>& rows);
 
 // One line: counts, graspability and kappa against the rows before it.
 void LogStage(const StageStatistics& row, const std::vector<StageStatistics>& rows);

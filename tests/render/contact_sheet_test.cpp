@@ -26,9 +26,7 @@ TEST(ContactSheet, SetsObjectsInRowsForAnyNumberOfThreads) {
   }
 }
 
-TEST(ContactSheet, OfNothingHasNoPixels) {
-  EXPECT_EQ(ContactSheet({}, View{}).pixels.size(), 0u);
-}
+TEST(ContactSheet, OfNothingHasNoPixels) { EXPECT_EQ(ContactSheet({}, View{}).pixels.size(), 0u); }
 
 }  // namespace
 }  // namespace antigrasp

@@ -161,15 +161,16 @@ TEST(GanTrainer, HalfPrecisionShapesTrainLikeFloat) {
   GanTrainer half(TinyModel(), TinyGan(), 5, torch::kCPU);
   GanTrainer full(TinyModel(), TinyGan(), 5, torch::kCPU);
   const torch::Tensor shapes = Spheres(4).to(torch::kHalf);
-  EXPECT_EQ(half.Step(shapes).discriminator, full.Step(shapes.to(torch::kFloat)).discriminator);
+  EXPECT_EQ(half.Step(shapes).loss_discriminator,
+            full.Step(shapes.to(torch::kFloat)).loss_discriminator);
 }
 
 TEST(GanTrainer, TheFirstLossesAreTheHingeAtScoresNearZero) {
   // Fresh discriminator, scores near 0: L_D = 1 + 1, L_G = 0.
   GanTrainer trainer(TinyModel(), TinyGan(), 5, torch::kCPU);
-  const GanLosses losses = trainer.Step(Spheres(4));
-  EXPECT_NEAR(losses.discriminator, 2.0, 0.7);
-  EXPECT_NEAR(losses.generator, 0.0, 0.7);
+  const StepReport report = trainer.Step(Spheres(4));
+  EXPECT_NEAR(report.loss_discriminator, 2.0, 0.7);
+  EXPECT_NEAR(report.loss_generator, 0.0, 0.7);
 }
 
 TEST(GanTrainer, MovesTowardsASingleShape) {
@@ -227,9 +228,9 @@ TEST(GanTrainer, APackedDiscriminatorTrainsAndItsFirstLossesAreTheHinge) {
   model.pack = 2;
   GanTrainer trainer(model, TinyGan(), 5, torch::kCPU);
   trainer.BeginEpisode(0, 2, true);
-  const GanLosses losses = trainer.Step(Spheres(4));
-  EXPECT_NEAR(losses.discriminator, 2.0, 0.7);
-  EXPECT_NEAR(losses.generator, 0.0, 0.7);
+  const StepReport report = trainer.Step(Spheres(4));
+  EXPECT_NEAR(report.loss_discriminator, 2.0, 0.7);
+  EXPECT_NEAR(report.loss_generator, 0.0, 0.7);
   trainer.Step(Spheres(4));
   EXPECT_TRUE(trainer.Sample(1, 0, 4).isfinite().all().item<bool>());
 }
