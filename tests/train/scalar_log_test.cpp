@@ -40,7 +40,9 @@ TEST(ScalarLog, FramesAreTensorBoardsByteForByte) {
   ASSERT_EQ(bytes.size(), 8u + 4 + 24 + 4);
   EXPECT_EQ(bytes.substr(0, 12), std::string("\x18\0\0\0\0\0\0\0\xa3\x7f\x4b\x22", 12));
   EXPECT_EQ(bytes[12], '\x09');
-  EXPECT_EQ(bytes.substr(21, 15), "\x1a\x0d" "brain.Event:2");
+  EXPECT_EQ(bytes.substr(21, 15),
+            "\x1a\x0d"
+            "brain.Event:2");
 }
 
 TEST(ScalarLog, DropsWhatCameAfterTheStateItGoesOnFromAndATornRecord) {
