@@ -60,7 +60,7 @@ def search_variants():
             Setting("steps a third as long", "search --step 0.1", 3.5),
             Setting("no annealing: the step stays", "search --last-step 1", 3.5),
             Setting("free extents", "search --no-keep-extents", 3.5),
-            Setting("coarse to fine: 200 smoothing passes", "search --coarse 200", 3.7)]
+            Setting("coarse to fine: 200 smoothing passes, moves not limited", "search --coarse 200 --max-move 100", 3.7)]
     return rows
 
 

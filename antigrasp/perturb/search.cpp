@@ -20,6 +20,8 @@ constexpr int kSweepsToFinish = 300;
 constexpr double kMomentum = 0.9, kSpreadMomentum = 0.99;
 // Vertices whose derivative is far below the mesh's mean take smaller steps.
 constexpr double kLeastSpread = 0.1;
+// Turning faces back moves vertices too: room for it.
+constexpr double kInsideMaxMove = 0.95;
 
 std::vector<Vector3d> VertexNormals(const TriangleMesh& mesh) {
   std::vector<Vector3d> normals(mesh.vertices.size(), Vector3d::Zero());
@@ -191,15 +193,32 @@ class SearchRun {
     work_.vertices[vertex] += height * mean_edge_ * vertex_normals_[vertex];
   }
 
+  double MaxMove() const { return options_.max_move / 100.0 * box_.Extent().norm(); }
+
   void Constrain() {
     if (options_.keep_extents) {
       for (Vector3d& v : work_.vertices) v = v.cwiseMax(box_.min).cwiseMin(box_.max);
     }
+    for (std::size_t v = 0; v < work_.vertices.size(); ++v) {
+      const Vector3d move = work_.vertices[v] - start_.vertices[v];
+      const double most = kInsideMaxMove * MaxMove();
+      if (move.squaredNorm() > most * most) {
+        work_.vertices[v] = start_.vertices[v] + most * move.normalized();
+      }
+    }
     TurnBack(start_, start_normals_, Alpha(), options_.sweeps, &work_);
   }
 
+  double LargestMove(const TriangleMesh& mesh) const {
+    double squared = 0.0;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      squared = std::max(squared, (mesh.vertices[v] - start_.vertices[v]).squaredNorm());
+    }
+    return std::sqrt(squared);
+  }
+
   bool KeepsLimits(const TriangleMesh& mesh) const {
-    if (LargestTurn(mesh, start_normals_) > Alpha()) return false;
+    if (LargestTurn(mesh, start_normals_) > Alpha() || LargestMove(mesh) > MaxMove()) return false;
     const double least = MoveLimits().min_height;
     const std::vector<double> heights = FaceHeights(mesh);
     for (std::size_t f = 0; f < heights.size(); ++f) {
@@ -249,6 +268,8 @@ void Bind(OptionTable* table, SearchOptions* options) {
              "sweeps that turn faces back into their cones after each step");
   table->Add("search.keep_extents", &o.keep_extents,
              "keep the vertices in the original's bounding box");
+  table->Add("search.max_move", &o.max_move, 1e-3, 1e3,
+             "largest move of a vertex, percent of the bounding-box diagonal");
   table->Add("search.candidates", &o.candidates, 1, 1000,
              "states of the second half that are scored; the best is taken");
   table->Add("search.scoring_rounds", &o.scoring_rounds, 1, 1000, "grasp sets that score a state");

@@ -15,7 +15,8 @@ namespace antigrasp {
 //   minimise    the percentile of the robust quality over antipodal, reachable grasps (III-B)
 //   over        one height per vertex, along its normal on the original
 //   such that   every face normal stays within alpha of the ORIGINAL's, the result is a printable
-//               solid and vertices stay in the bounding box (extents change by 2 % at most)
+//               solid, vertices stay in the bounding box (extents change by 2 % at most) and
+//               within max_move of where they were (a coarse mesh could lose its volume else)
 //
 // Each step draws fresh grasps and noise on the mesh as it is now, takes the derivative of a smooth
 // percentile (search_objective.h) by all heights at once, makes an Adam step and turns the faces
@@ -35,6 +36,7 @@ struct SearchOptions {
   int coarse = 0;             // passes that smooth the first derivative over the surface, see Bind
   int sweeps = 10;            // of the projection in a step
   bool keep_extents = true;
+  double max_move = 6.0;   // of a vertex, percent of the bounding box's diagonal
   int candidates = 5;      // states that are scored
   int scoring_rounds = 3;  // sets of metric.num_grasps grasps that score them
   ObjectiveOptions objective;

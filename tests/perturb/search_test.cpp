@@ -172,6 +172,19 @@ TEST(TurnBack, LeavesAMeshInsideItsConesAlone) {
   EXPECT_EQ(moved.vertices, before.vertices);
 }
 
+TEST(PerturbBySearch, KeepsTheVolumeOfAMeshWithFewFaces) {
+  // The normals alone would let the corners of a cube run together.
+  RngStream rng(1, "perturb");
+  const TriangleMesh cube = shapes::Cube();
+  const PerturbResult result = PerturbBySearch(cube, {}, Quick(10.0), &rng);
+  EXPECT_EQ(result.failure, "");
+  const double most = 0.06 * Bounds(cube).Extent().norm();
+  for (std::size_t v = 0; v < cube.vertices.size(); ++v) {
+    EXPECT_LE((result.mesh.vertices[v] - cube.vertices[v]).norm(), most * (1.0 + 1e-6));
+  }
+  EXPECT_GT(Volume(result.mesh), 0.7 * Volume(cube));
+}
+
 TEST(PerturbBySearch, FromCoarseToFineMovesTheSurfaceFurtherUnderTheSameLimit) {
   const TriangleMesh mesh = Cylinders(1).front();
   SearchOptions fine = Quick(10.0), coarse = fine;
