@@ -29,7 +29,7 @@ void Sample(const SampleFlags& flags) {
                                                            : fs::path(flags.checkpoint);
   const AtomicFile probe(flags.out);  // refuses an unwritable target before the work
   const Checkpoint checkpoint = ReadCheckpoint(path);
-  RunConfig config = FromToml(checkpoint.config, path.string());
+  RunConfig config = NetworksFromToml(checkpoint.config, path.string());
   config.device = flags.device;
   config.threads = flags.threads;
   GanTrainer trainer = MakeTrainer(config);

@@ -111,16 +111,18 @@ Assignment Checked(const Option& option, const toml::node& node, const std::stri
 }
 
 void Collect(const std::vector<Option>& options, const toml::table& table,
-             const std::string& prefix, const std::string& origin, bool with_lines,
+             const std::string& prefix, const std::string& origin, const std::string* needed,
              std::vector<Assignment>* assignments) {
   for (const auto& [name, node] : table) {
     const std::string key = prefix + std::string(name.str());
     if (const toml::table* inner = node.as_table()) {
-      Collect(options, *inner, key + ".", origin, with_lines, assignments);
+      Collect(options, *inner, key + ".", origin, needed, assignments);
       continue;
     }
-    const std::string where =
-        with_lines ? origin + ":" + std::to_string(node.source().begin.line) : origin;
+    const bool known = std::any_of(options.begin(), options.end(),
+                                   [&](const Option& option) { return option.key == key; });
+    if (!known && needed != nullptr && !key.starts_with(*needed)) continue;
+    const std::string where = origin + ":" + std::to_string(node.source().begin.line);
     assignments->push_back(Checked(Find(options, key, where), node, where));
   }
 }
@@ -166,6 +168,16 @@ void OptionTable::ApplyFile(const std::string& path) {
 }
 
 void OptionTable::ApplyText(std::string_view text, const std::string& origin) {
+  Apply(text, origin, nullptr);
+}
+
+void OptionTable::ApplyKnown(std::string_view text, const std::string& origin,
+                             const std::string& needed) {
+  Apply(text, origin, &needed);
+}
+
+void OptionTable::Apply(std::string_view text, const std::string& origin,
+                        const std::string* needed) {
   toml::table table;
   try {
     table = toml::parse(text, origin);
@@ -174,7 +186,7 @@ void OptionTable::ApplyText(std::string_view text, const std::string& origin) {
                      origin + ":" + std::to_string(error.source().begin.line), "valid TOML");
   }
   std::vector<Assignment> assignments;
-  Collect(options_, table, "", origin, true, &assignments);
+  Collect(options_, table, "", origin, needed, &assignments);
   for (const Assignment& assign : assignments) assign();
 }
 

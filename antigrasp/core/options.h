@@ -37,6 +37,9 @@ class OptionTable {
   // unknown key is an error that names the nearest known one. Nothing is assigned on error.
   void ApplyFile(const std::string& path);
   void ApplyText(std::string_view toml, const std::string& origin);
+  // The same for a file that another version may have written: unknown keys are left out, unless
+  // they begin with `needed` ("model.").
+  void ApplyKnown(std::string_view toml, const std::string& origin, const std::string& needed);
   void ApplyOverride(const std::string& key_equals_value);  // "a.b=c", from --set
   void ApplyValue(const std::string& key, const std::string& text, const std::string& origin);
 
@@ -44,6 +47,8 @@ class OptionTable {
   std::string Dump() const;
 
  private:
+  void Apply(std::string_view toml, const std::string& origin, const std::string* needed);
+
   std::vector<Option> options_;
 };
 

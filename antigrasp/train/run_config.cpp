@@ -59,6 +59,14 @@ RunConfig FromToml(const std::string& toml, const std::string& origin) {
   return config;
 }
 
+RunConfig NetworksFromToml(const std::string& toml, const std::string& origin) {
+  RunConfig config;
+  OptionTable table;
+  Bind(&table, &config);
+  table.ApplyKnown(toml, origin, "model.");
+  return config;
+}
+
 void Validate(const RunConfig& config, const std::string& origin) {
   if (config.cem.keep > config.cem.samples) {
     throw InputError("cem.keep = " + std::to_string(config.cem.keep), origin,

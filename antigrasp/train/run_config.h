@@ -49,6 +49,9 @@ void Bind(OptionTable* table, RunConfig* config);
 // The resolved configuration as TOML, and back. InputError names `origin`.
 std::string ToToml(const RunConfig& config);
 RunConfig FromToml(const std::string& toml, const std::string& origin);
+// For sampling from a checkpoint that another version may have written: keys that this version does
+// not know are left out, but for those of the networks.
+RunConfig NetworksFromToml(const std::string& toml, const std::string& origin);
 
 // InputError for combinations no single range can refuse (keep > samples, ...).
 void Validate(const RunConfig& config, const std::string& origin);

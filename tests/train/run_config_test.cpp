@@ -21,6 +21,14 @@ TEST(RunConfig, ReadsItsOwnDump) {
   EXPECT_EQ(FromToml(toml, "x").metric.gripper.finger_width, 0.015);
 }
 
+TEST(RunConfig, ForSamplingKeysOfAnotherVersionAreLeftOutButNotThoseOfTheNetworks) {
+  const std::string old = "[metric]\nbootstrap = 1000\n[model]\nwidth = 5\n";
+  EXPECT_EQ(NetworksFromToml(old, "x").model.width, 5);
+  EXPECT_THROW(FromToml(old, "x"), InputError);
+  EXPECT_THROW(NetworksFromToml("[model]\nattention = true\n", "x"), InputError);
+  EXPECT_THROW(NetworksFromToml("[model]\nwidth = 0\n", "x"), InputError);
+}
+
 TEST(RunConfig, HoldsThePapersNumbersByDefault) {
   const RunConfig config;
   EXPECT_EQ(config.cem.samples, 2500);
