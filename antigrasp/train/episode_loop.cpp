@@ -203,6 +203,7 @@ void EpisodeLoop::Record(const ScoredStage& scored, const std::vector<std::int64
   WriteFileAtomic(folder_.Episode(episode()) / "losses.csv", LossesCsv(losses_));
   WriteFileAtomic(folder_.Statistics(), StatisticsToCsv(rows_));
   WriteElites(folder_.Episode(episode()) / "elites.h5", scored, elites, episode(), config_);
+  WriteSampleSheet(folder_.Episode(episode()) / "samples.png", scored, config_);
   log_->Add(UpdatesSoFar(), StageScalars(row, rows_));
   LogStage(row, rows_);
   WarnIfCollapsed(row, rows_);

@@ -12,6 +12,7 @@
 #include "antigrasp/core/rng.h"
 #include "antigrasp/mesh/fit.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/render/contact_sheet.h"
 #include "antigrasp/train/elites.h"
 
 namespace antigrasp {
@@ -104,6 +105,21 @@ void WriteElites(const std::filesystem::path& path, const ScoredStage& scored,
     set.grids.push_back(GridOf(scored.values[i], config.model));
   }
   WriteShapeSet(path, set);
+}
+
+void WriteSampleSheet(const std::filesystem::path& path, const ScoredStage& scored,
+                      const RunConfig& config) {
+  constexpr std::size_t kColumns = 8, kRows = 4;
+  View view;
+  view.pixels = 160;
+  std::vector<std::vector<const TriangleMesh*>> rows;
+  std::size_t drawn = 0;
+  for (const auto& object : scored.objects) {
+    if (object.mesh.faces.empty() || drawn == kColumns * kRows) continue;
+    if (drawn++ % kColumns == 0) rows.emplace_back();
+    rows.back().push_back(&object.mesh);
+  }
+  if (drawn > 0) WritePng(path, ContactSheet(rows, view, config.threads));
 }
 
 void ExportLeastGraspable(const ScoredStage& scored, const RunConfig& config,

@@ -46,6 +46,10 @@ void WarnIfCollapsed(const StageStatistics& row, const std::vector<StageStatisti
 void WriteElites(const std::filesystem::path& path, const ScoredStage& scored,
                  const std::vector<std::int64_t>& elites, int episode, const RunConfig& config);
 
+// The first 32 samples that have a surface, usable or not, as a picture.
+void WriteSampleSheet(const std::filesystem::path& path, const ScoredStage& scored,
+                      const RunConfig& config);
+
 // config.stl_count least graspable objects as STL in mm under RUN/stl, and scores.csv beside them:
 // picked by their first score, scored again with fresh draws, because the lowest of many noisy
 // scores is too low.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -12,6 +13,7 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/mesh/inspect.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/render/image.h"
 #include "antigrasp/train/scalar_log.h"
 #include "tests/support/temp_folder.h"
 
@@ -99,6 +101,9 @@ TEST(CemRun, WritesEveryStageAndPrintableSolids) {
     EXPECT_TRUE(IsCheckpoint(run.EpisodeCheckpoint(e)));
     EXPECT_TRUE(fs::exists(run.Episode(e) / "scores.csv"));
     EXPECT_TRUE(IsShapeSet(run.Episode(e) / "elites.h5"));
+    const Image samples = ReadPng(run.Episode(e) / "samples.png");
+    EXPECT_EQ(samples.width, 8 * 160);
+    EXPECT_GT(std::count(samples.pixels.begin(), samples.pixels.end(), Rgb{255, 255, 255}), 0);
   }
   for (const auto& entry : fs::directory_iterator(folder / "run/stl")) {
     if (entry.path().extension() != ".stl") continue;
