@@ -89,7 +89,7 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
   if (settings.common.history) WriteFileAtomic(out / "history.csv", PerturbHistoryCsv(objects));
   WriteFileAtomic(out / "perturb.toml", constants);
   WritePerturbedSheet(objects, out, flags.threads);
-  WriteFileAtomic(out / "perturb.csv", PerturbCsv(objects));  // last: its being there means done
+  WriteFileAtomic(out / "perturb.csv", PerturbCsv(objects));  // last: the rest is there
   for (const PerturbedObject& item : objects) {
     if (item.Status() != "ok") spdlog::warn("{}: {}", item.object.name, item.Status());
   }

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -65,9 +64,6 @@ void Shape(ShapeFlags flags, const OptionFlags& search) {
         "phi = " + FormatDouble(options.phi), "--phi",
         "at most 70.5288 degrees, the regular tetrahedron's: no closed solid has more");
   }
-  if (!std::isfinite(options.size)) {  // the range check lets nan through
-    throw InputError("size = " + FormatDouble(options.size), "--size-mm", "a number");
-  }
   { const AtomicFile probe(flags.out); }  // refuses an unwritable target before the work
   ConsoleObserver console;
   const AdversarialPolyhedron solid = MakeAdversarialPolyhedron(
@@ -109,7 +105,7 @@ void AddShapeCommand(CLI::App* app) {
   command
       ->add_option("--size-mm", flags->options.size,
                    "edge of the cube that the plain solid is inscribed in, mm")
-      ->check(CLI::Range(0.001, 1e5))
+      ->check(NumberIn(0.001, 1e5))
       ->capture_default_str();
   command->add_option("--out", flags->out, "mesh file (STL, OBJ, PLY, OFF), millimetres")
       ->required();

@@ -43,7 +43,7 @@ void Sheet(const SheetFlags& flags) {
   if (drawn == 0) {
     throw InputError("no object with a surface", flags.inputs.front(), "at least one");
   }
-  const Image sheet = ContactSheet(rows, flags.view, flags.threads);
+  const Image sheet = ContactSheet(rows, flags.view, flags.threads, console.Phase("drawing"));
   WritePng(flags.out, sheet);
   std::printf("%s: %d objects in %zu rows, %d x %d pixels", flags.out.c_str(), drawn, rows.size(),
               sheet.width, sheet.height);

@@ -144,10 +144,6 @@ void Trial(const TrialFlags& flags, const OptionFlags& trial_flags,
   Bind(&table, &options);
   trial_flags.Apply(&table);
   MetricOptions metric = metric_flags.Resolve();
-  if (!std::isfinite(flags.friction_angle)) {  // the range check lets nan through
-    throw InputError("friction angle = " + FormatDouble(flags.friction_angle), "--friction-angle",
-                     "a number");
-  }
   if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
   const std::vector<InputObject> objects = LoadUsable(flags);
   const std::vector<Readings> all = RunReadings(flags, objects, metric, options);
@@ -180,7 +176,7 @@ void AddTrialCommand(CLI::App* app) {
   command->add_option("--out", flags->out,
                       "results (CSV); the constants go to the same name plus .trial.toml");
   command->add_option("--friction-angle", flags->friction_angle, "degrees")
-      ->check(CLI::Range(0.0, 80.0))
+      ->check(NumberIn(0.0, 80.0))
       ->capture_default_str();
   command->add_option("--reading", flags->reading, "half-angle, full-cone or both")
       ->check(CLI::IsMember({"half-angle", "full-cone", "both"}))

@@ -1,6 +1,5 @@
 #include "antigrasp/models/discriminator.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "antigrasp/models/folding.h"
@@ -45,11 +44,9 @@ void DiscriminatorImpl::Initialize(RngStream* rng) {
 double DiscriminatorImpl::LargestSigma() {
   if (!options_.spectral_norm) return std::numeric_limits<double>::quiet_NaN();
   torch::NoGradGuard no_grad;
-  double largest = 0.0;
-  for (SpectralWeight& weight : weights_) {
-    largest = std::max(largest, weight->Sigma().item<double>());
-  }
-  return largest;
+  std::vector<torch::Tensor> sigmas;
+  for (SpectralWeight& weight : weights_) sigmas.push_back(weight->Sigma());
+  return torch::stack(sigmas).max().item<double>();  // one wait for the device
 }
 
 torch::Tensor DiscriminatorImpl::forward(const torch::Tensor& sdf) {

@@ -42,17 +42,14 @@ EditableMesh::EditableMesh(const TriangleMesh& mesh, const MoveLimits& limits)
       limits_(limits),
       cos_from_start_(CosineOfLimit(limits.max_turn_from_start)),
       cos_per_move_(CosineOfLimit(limits.max_turn_per_move)),
+      mean_edge_(MeanEdge(mesh_)),
       tree_(mesh_) {
   LinkVerticesToFaces();
-  double edges = 0.0;
   for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
     shapes_.emplace_back(mesh_, f);
     start_normals_.push_back(shapes_.back().normal);
     start_heights_.push_back(Height(shapes_.back()));
-    const auto& corner = shapes_.back().corner;
-    for (std::size_t k = 0; k < 3; ++k) edges += (corner[(k + 1) % 3] - corner[k]).norm();
   }
-  mean_edge_ = mesh_.faces.empty() ? 0.0 : edges / (3.0 * static_cast<double>(shapes_.size()));
 }
 
 void EditableMesh::LinkVerticesToFaces() {

@@ -34,18 +34,6 @@ std::vector<Vector3d> VertexNormals(const TriangleMesh& mesh) {
   return normals;
 }
 
-double MeanEdge(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (const auto& face : mesh.faces) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      sum += (mesh.vertices[static_cast<std::size_t>(face[(k + 1) % 3])] -
-              mesh.vertices[static_cast<std::size_t>(face[k])])
-                 .norm();
-    }
-  }
-  return sum / (3.0 * static_cast<double>(mesh.faces.size()));
-}
-
 std::vector<double> FaceHeights(const TriangleMesh& mesh) {
   std::vector<double> heights;
   for (const auto& face : mesh.faces) {

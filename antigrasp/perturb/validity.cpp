@@ -32,6 +32,19 @@ double FaceHeight(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eige
   return longest > 0.0 ? (b - a).cross(c - a).norm() / longest : 0.0;
 }
 
+double MeanEdge(const TriangleMesh& mesh) {
+  if (mesh.faces.empty()) return 0.0;
+  double sum = 0.0;
+  for (const auto& face : mesh.faces) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum += (mesh.vertices[static_cast<std::size_t>(face[(k + 1) % 3])] -
+              mesh.vertices[static_cast<std::size_t>(face[k])])
+                 .norm();
+    }
+  }
+  return sum / (3.0 * static_cast<double>(mesh.faces.size()));
+}
+
 TriangleMesh InSinglePrecision(const TriangleMesh& mesh) {
   TriangleMesh out = mesh;
   for (Eigen::Vector3d& v : out.vertices) v = InSinglePrecision(v);

@@ -31,6 +31,9 @@ std::string_view Name(MoveVerdict verdict);  // "ok", "not_finite", ...
 // Height over the longest edge (0.87 for a regular triangle), 0 without area.
 double FaceHeight(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
+// Mean length of the edges, 0 without faces.
+double MeanEdge(const TriangleMesh& mesh);
+
 // The mesh with the coordinates that an STL file holds. What is checked must be what is printed:
 // rounding alone can make a fine mesh intersect itself.
 TriangleMesh InSinglePrecision(const TriangleMesh& mesh);

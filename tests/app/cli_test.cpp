@@ -1,10 +1,7 @@
 // The binary as a user meets it: every command, exit codes, one-line errors, nothing half-written.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +10,7 @@
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/inspect.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "tests/app/run_binary.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
 
@@ -20,42 +18,16 @@ namespace antigrasp {
 namespace {
 
 namespace fs = std::filesystem;
+using cli::Antigrasp;
+using cli::ExpectRefused;
+using cli::Outcome;
+using cli::Shell;
 using shapes::TempFolder;
-
-struct Outcome {
-  int code = -1;
-  std::string text;  // standard output and error
-};
-
-Outcome Shell(const std::string& command) {
-  Outcome outcome;
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  std::array<char, 4096> buffer;
-  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) {
-    outcome.text.append(buffer.data(), n);
-  }
-  const int status = pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return outcome;
-}
-
-Outcome Antigrasp(const std::string& arguments) {
-  return Shell(std::string(ANTIGRASP_BINARY) + " " + arguments);
-}
 
 const std::string kSmoke = std::string(ANTIGRASP_CONFIGS) + "/smoke.toml";
 
 int FilesIn(const fs::path& folder) {
   return static_cast<int>(std::distance(fs::directory_iterator(folder), {}));
-}
-
-// Exit code 2, one line that begins with the program's name and holds `part`.
-void ExpectRefused(const std::string& arguments, const std::string& part) {
-  const Outcome outcome = Antigrasp(arguments);
-  EXPECT_EQ(outcome.code, 2) << arguments << "\n" << outcome.text;
-  EXPECT_NE(outcome.text.find(part), std::string::npos) << arguments << "\n" << outcome.text;
-  EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
-  EXPECT_TRUE(outcome.text.starts_with("antigrasp: ")) << outcome.text;
 }
 
 TEST(Cli, HelpNamesEveryCommandAndEveryCommandHasHelp) {
