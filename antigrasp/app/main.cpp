@@ -60,6 +60,7 @@ int Run(int argc, char** argv) {
   AddTrialCommand(&app);
   AddSheetCommand(&app);
   AddExportCommand(&app);
+  AddGeneratorCommand(&app);
   AddInfoCommand(&app);
   AddHelpCommand(&app, &topic);
   try {
