@@ -11,6 +11,7 @@ void AddTrainCommand(CLI::App* app);
 void AddSampleCommand(CLI::App* app);
 void AddRemeshCommand(CLI::App* app);
 void AddEvaluateCommand(CLI::App* app);
+void AddCompareCommand(CLI::App* app);
 void AddQualityCommand(CLI::App* app);
 void AddPerturbCommand(CLI::App* app);
 void AddShapeCommand(CLI::App* app);

@@ -53,6 +53,7 @@ int Run(int argc, char** argv) {
   AddSampleCommand(&app);
   AddRemeshCommand(&app);
   AddEvaluateCommand(&app);
+  AddCompareCommand(&app);
   AddQualityCommand(&app);
   AddPerturbCommand(&app);
   AddShapeCommand(&app);
