@@ -45,7 +45,7 @@ GeneratorImpl::GeneratorImpl(const ModelOptions& options) : options_(options) {
           register_parameter("bias" + std::to_string(i), torch::zeros({8 * c >> i, 1, 1, 1})));
     }
   }
-  for (int i = 0; options_.block == "residual" && i < kUpLayers; ++i) {
+  for (int i = 0; options_.block != "plain" && i < kUpLayers; ++i) {
     const std::int64_t channels = 4 * c >> i;
     refine_weights_.push_back(register_parameter("refine" + std::to_string(i + 1) + "_weight",
                                                  torch::zeros({channels, channels, 3, 3, 3})));

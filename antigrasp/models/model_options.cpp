@@ -17,8 +17,9 @@ void Bind(OptionTable* table, ModelOptions* options) {
              "where they meet: channels of the first layer, or the deviation of features at 4^3");
   table->Add("model.width_d", &options->width_d, 0, 256,
              "width of the discriminator; 0 = model.width");
-  table->Add("model.block", &options->block, {"plain", "residual"},
-             "residual: a 3^3 convolution beside every resolution but 2^3, in both networks");
+  table->Add(
+      "model.block", &options->block, {"plain", "residual", "residual_generator"},
+      "residual: a 3^3 convolution beside every resolution but 2^3, in both networks or in one");
   table->Add("model.batch_norm", &options->batch_norm, "batch normalisation in the generator");
   table->Add("model.output_blur", &options->output_blur,
              "smooth the generator's output with [1 2 1]/4 along each axis, before tanh");

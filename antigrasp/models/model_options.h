@@ -19,10 +19,12 @@ struct ModelOptions {
   // Where the shapes of a pack meet: "input" as channels of the first layer (PacGAN), "features" as
   // the deviation over the pack of every feature at 4^3 (Karras et al., ICLR 2018, per channel).
   std::string pack_at = "input";
-  int width_d = 0;              // of the discriminator; 0 = width
-  std::string block = "plain";  // "residual": a 3^3 convolution beside every resolution but 2^3
-  bool batch_norm = true;       // in the generator
-  bool output_blur = true;      // [1 2 1]/4 before tanh
+  int width_d = 0;  // of the discriminator; 0 = width
+  // "residual": a 3^3 convolution beside every resolution but 2^3, in both networks;
+  // "residual_generator": in the generator alone.
+  std::string block = "plain";
+  bool batch_norm = true;   // in the generator
+  bool output_blur = true;  // [1 2 1]/4 before tanh
   // A network value v stands for the distance truncation * v, clamped; 0 = raw distances times
   // raw_scale.
   double truncation = 0.1;

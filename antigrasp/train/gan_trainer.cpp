@@ -10,27 +10,12 @@
 #include "antigrasp/models/random_tensor.h"
 #include "antigrasp/train/adam.h"
 #include "antigrasp/train/augment.h"
+#include "antigrasp/train/averaged_generator.h"
 #include "antigrasp/train/network_tensors.h"
 #include "antigrasp/train/symmetries.h"
 
 namespace antigrasp {
 namespace {
-
-// Samples are always drawn in whole, aligned blocks of this size, so that the bits of sample i do
-// not depend on how many are asked for.
-constexpr std::int64_t kSampleBlock = 32;
-constexpr std::int64_t kStatisticsBlocks =
-    32;  // 1,024 samples: error of a channel's mean 3 % of sd
-
-torch::Tensor LatentBlock(const LatentMixture& mixture, std::uint64_t seed, std::string_view domain,
-                          std::int64_t block) {
-  std::vector<torch::Tensor> rows;
-  for (std::int64_t i = 0; i < kSampleBlock; ++i) {
-    RngStream rng(seed, domain, static_cast<std::uint64_t>(block * kSampleBlock + i));
-    rows.push_back(DrawLatent(mixture, &rng));
-  }
-  return torch::stack(rows);
-}
 
 // Hinge losses, section V-A: -E[min(0, -1 + D(x))] - E[min(0, -1 - D(G(z)))] and -E[D(G(z))].
 torch::Tensor DiscriminatorLoss(const torch::Tensor& real_score, const torch::Tensor& fake_score) {
@@ -50,8 +35,6 @@ struct GanTrainer::Impl {
   void UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake, RngStream* rng,
                            StepReport* report);
   void UpdateGenerator(const torch::Tensor& fake, RngStream* rng, StepReport* report);
-  void UpdateAverage();
-  void RefreshStatistics();
   double Finite(const char* what, const torch::Tensor& value) const;
   double FiniteNorm(const std::vector<torch::Tensor>& gradients) const;
   double LearningRateFactor() const;
@@ -60,19 +43,18 @@ struct GanTrainer::Impl {
   torch::Tensor Progress() const;  // [3] int64: episode, iterations, step
   void SetProgress(const torch::Tensor& progress);
   NamedTensors Networks() const;  // without what only goes on training needs
-  void CopyParameters(const Generator& from, const Generator& to);
 
   ModelOptions model;
   GanOptions options;
   std::uint64_t seed;
   torch::Device device;
-  Generator generator, average;
+  Generator generator;
+  AveragedGenerator average;
   Discriminator discriminator;
   Adam adam_generator, adam_discriminator;
   LatentMixture latent;
   int episode = 0;
   std::int64_t iterations = 0, step = 0;
-  bool statistics_stale = true;  // the average's batch statistics do not belong to its weights
 };
 
 GanTrainer::Impl::Impl(const ModelOptions& model_options, const GanOptions& gan_options,
@@ -82,14 +64,13 @@ GanTrainer::Impl::Impl(const ModelOptions& model_options, const GanOptions& gan_
       seed(base_seed),
       device(torch_device),
       generator(model_options),
-      average(model_options),
+      average(model_options, base_seed, torch_device),
       discriminator(model_options),
       adam_generator((generator->to(device), generator->parameters()), options.beta1,
                      options.beta2),
       adam_discriminator((discriminator->to(device), discriminator->parameters()), options.beta1,
                          options.beta2),
       latent(StandardNormal(model.components, model.latent)) {
-  average->to(device);
   RestartNetworks(0);
 }
 
@@ -174,37 +155,11 @@ double GanTrainer::Impl::AverageDecay() const {
   return std::min(target, (1.0 + t) / (10.0 + t));
 }
 
-void GanTrainer::Impl::UpdateAverage() {
-  torch::NoGradGuard no_grad;
-  const auto source = generator->parameters();
-  auto target = average->parameters();
-  for (std::size_t i = 0; i < target.size(); ++i) {
-    target[i].lerp_(source[i], 1.0 - AverageDecay());
-  }
-  statistics_stale = true;
-}
-
-void GanTrainer::Impl::RefreshStatistics() {
-  if (!statistics_stale) {
-    return;
-  }
-  statistics_stale = false;
-  if (!model.batch_norm) {
-    return;
-  }
-  const LatentMixture standard = StandardNormal(model.components, model.latent);
-  average->RestartStatistics();
-  average->train();
-  for (std::int64_t block = 0; block < kStatisticsBlocks; ++block) {
-    average->ForwardFolded(LatentBlock(standard, seed, "statistics", block).to(device));
-  }
-}
-
 NamedTensors GanTrainer::Impl::State(const torch::Tensor& progress) const {
   NamedTensors state;
   AppendModule("generator/", *generator, &state);
   AppendModule("discriminator/", *discriminator, &state);
-  AppendModule("average/", *average, &state);
+  AppendModule("average/", *average.network(), &state);
   AppendAdam("adam_generator/", adam_generator, &state);
   AppendAdam("adam_discriminator/", adam_discriminator, &state);
   AppendMixture("latent/", latent, &state);
@@ -220,25 +175,15 @@ void GanTrainer::Impl::SetProgress(const torch::Tensor& progress) {
   episode = static_cast<int>(progress[0].item<std::int64_t>());
   iterations = progress[1].item<std::int64_t>();
   step = progress[2].item<std::int64_t>();
-  statistics_stale = true;
+  average.WeightsChanged();
 }
 
 NamedTensors GanTrainer::Impl::Networks() const {
   NamedTensors networks;
   AppendModule("discriminator/", *discriminator, &networks);
-  AppendModule("average/", *average, &networks);
+  AppendModule("average/", *average.network(), &networks);
   AppendMixture("latent/", latent, &networks);
   return networks;
-}
-
-void GanTrainer::Impl::CopyParameters(const Generator& from, const Generator& to) {
-  torch::NoGradGuard no_grad;
-  auto target = to->parameters();
-  const auto source = from->parameters();
-  for (std::size_t i = 0; i < target.size(); ++i) {
-    target[i].copy_(source[i]);
-  }
-  statistics_stale = true;
 }
 
 GanTrainer::GanTrainer(const ModelOptions& model, const GanOptions& options, std::uint64_t seed,
@@ -261,7 +206,7 @@ void GanTrainer::BeginEpisode(int episode, std::int64_t iterations, bool restart
   t.iterations = iterations;
   t.step = 0;
   t.latent = StandardNormal(t.model.components, t.model.latent);
-  t.CopyParameters(t.generator, t.average);
+  t.average.Follow(t.generator, /*decay=*/0.0);
 }
 
 void GanTrainer::BeginFixedEpisode(int episode, const LatentMixture& latent) {
@@ -291,7 +236,7 @@ StepReport GanTrainer::Step(const torch::Tensor& shapes) {
   }
   t.UpdateGenerator(fake, &rng, &report);
   report.largest_sigma = t.discriminator->LargestSigma();
-  t.UpdateAverage();
+  t.average.Follow(t.generator, t.AverageDecay());
   ++t.step;
   return report;
 }
@@ -302,30 +247,11 @@ int GanTrainer::episode() const { return impl_->episode; }
 
 torch::Tensor GanTrainer::Latents(std::uint64_t seed, std::int64_t first,
                                   std::int64_t count) const {
-  AG_CHECK(first >= 0 && count >= 0, "samples are numbered from 0");
-  std::vector<torch::Tensor> rows = {torch::empty({0, impl_->model.latent})};
-  for (std::int64_t block = first / kSampleBlock; block * kSampleBlock < first + count; ++block) {
-    const std::int64_t begin = std::max<std::int64_t>(first - block * kSampleBlock, 0);
-    const std::int64_t end = std::min(first + count - block * kSampleBlock, kSampleBlock);
-    rows.push_back(LatentBlock(impl_->latent, seed, "latent", block).slice(0, begin, end));
-  }
-  return torch::cat(rows);
+  return SampleLatents(impl_->latent, seed, first, count);
 }
 
 torch::Tensor GanTrainer::Sample(std::uint64_t seed, std::int64_t first, std::int64_t count) {
-  AG_CHECK(first >= 0 && count >= 0, "samples are numbered from 0");
-  torch::NoGradGuard no_grad;
-  Impl& t = *impl_;
-  t.RefreshStatistics();
-  t.average->eval();
-  std::vector<torch::Tensor> parts = {torch::empty({0, 1, 32, 32, 32})};
-  for (std::int64_t block = first / kSampleBlock; block * kSampleBlock < first + count; ++block) {
-    const torch::Tensor z = LatentBlock(t.latent, seed, "latent", block);
-    const std::int64_t begin = std::max<std::int64_t>(first - block * kSampleBlock, 0);
-    const std::int64_t end = std::min(first + count - block * kSampleBlock, kSampleBlock);
-    parts.push_back(t.average->forward(z.to(t.device)).slice(0, begin, end).cpu());
-  }
-  return torch::cat(parts);
+  return impl_->average.Sample(impl_->latent, seed, first, count);
 }
 
 const LatentMixture& GanTrainer::latent() const { return impl_->latent; }
@@ -349,7 +275,10 @@ void GanTrainer::LoadNetworks(torch::serialize::InputArchive* archive) {
   networks.emplace_back("progress", progress);
   ReadTensors(networks, "checkpoint", archive);
   impl_->SetProgress(progress);
-  impl_->CopyParameters(impl_->average, impl_->generator);
+  torch::NoGradGuard no_grad;
+  const auto from = impl_->average.network()->parameters();
+  auto to = impl_->generator->parameters();
+  for (std::size_t i = 0; i < to.size(); ++i) to[i].copy_(from[i]);
 }
 
 void GanTrainer::Save(torch::serialize::OutputArchive* archive) const {

@@ -1,0 +1,95 @@
+#include "antigrasp/train/averaged_generator.h"
+
+#include <torch/torch.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "antigrasp/core/check.h"
+#include "antigrasp/core/rng.h"
+
+namespace antigrasp {
+namespace {
+
+// Samples are always drawn in whole, aligned blocks of this size, so that the bits of sample i do
+// not depend on how many are asked for.
+constexpr std::int64_t kBlock = 32;
+constexpr std::int64_t kStatisticsBlocks = 32;  // 1,024 samples: a channel's mean to 3 % of its sd
+
+torch::Tensor LatentBlock(const LatentMixture& mixture, std::uint64_t seed, std::string_view domain,
+                          std::int64_t block) {
+  std::vector<torch::Tensor> rows;
+  for (std::int64_t i = 0; i < kBlock; ++i) {
+    RngStream rng(seed, domain, static_cast<std::uint64_t>(block * kBlock + i));
+    rows.push_back(DrawLatent(mixture, &rng));
+  }
+  return torch::stack(rows);
+}
+
+// What `of_block` makes of every block that holds samples first to first + count - 1, without the
+// others.
+template <class OfBlock>
+torch::Tensor OfBlocks(std::int64_t first, std::int64_t count, torch::Tensor empty,
+                       const OfBlock& of_block) {
+  AG_CHECK(first >= 0 && count >= 0, "samples are numbered from 0");
+  std::vector<torch::Tensor> parts = {std::move(empty)};
+  for (std::int64_t block = first / kBlock; block * kBlock < first + count; ++block) {
+    const std::int64_t begin = std::max<std::int64_t>(first - block * kBlock, 0);
+    const std::int64_t end = std::min(first + count - block * kBlock, kBlock);
+    parts.push_back(of_block(block).slice(0, begin, end).cpu());
+  }
+  return torch::cat(parts);
+}
+
+}  // namespace
+
+torch::Tensor SampleLatents(const LatentMixture& latent, std::uint64_t seed, std::int64_t first,
+                            std::int64_t count) {
+  return OfBlocks(first, count, torch::empty({0, latent.means.size(1)}),
+                  [&](std::int64_t block) { return LatentBlock(latent, seed, "latent", block); });
+}
+
+AveragedGenerator::AveragedGenerator(const ModelOptions& options, std::uint64_t seed,
+                                     torch::Device device)
+    : options_(options), seed_(seed), device_(device), network_(options) {
+  network_->to(device_);
+}
+
+void AveragedGenerator::Follow(const Generator& source, double decay) {
+  torch::NoGradGuard no_grad;
+  const auto from = source->parameters();
+  auto to = network_->parameters();
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    if (decay > 0.0) {
+      to[i].lerp_(from[i], 1.0 - decay);
+    } else {
+      to[i].copy_(from[i]);
+    }
+  }
+  statistics_stale_ = true;
+}
+
+torch::Tensor AveragedGenerator::Sample(const LatentMixture& latent, std::uint64_t seed,
+                                        std::int64_t first, std::int64_t count) {
+  torch::NoGradGuard no_grad;
+  RefreshStatistics();
+  network_->eval();
+  return OfBlocks(first, count, torch::empty({0, 1, 32, 32, 32}), [&](std::int64_t block) {
+    return network_->forward(LatentBlock(latent, seed, "latent", block).to(device_));
+  });
+}
+
+void AveragedGenerator::RefreshStatistics() {
+  if (!statistics_stale_) return;
+  statistics_stale_ = false;
+  if (!options_.batch_norm) return;
+  const LatentMixture standard = StandardNormal(options_.components, options_.latent);
+  network_->RestartStatistics();
+  network_->train();
+  for (std::int64_t block = 0; block < kStatisticsBlocks; ++block) {
+    network_->ForwardFolded(LatentBlock(standard, seed_, "statistics", block).to(device_));
+  }
+}
+
+}  // namespace antigrasp

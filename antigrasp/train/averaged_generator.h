@@ -1,0 +1,44 @@
+#pragma once
+
+#include <torch/types.h>
+
+#include <cstdint>
+
+#include "antigrasp/models/generator.h"
+#include "antigrasp/train/latent_mixture.h"
+
+namespace antigrasp {
+
+// z of sample `first + i` of stream `seed`, i in [0, count): [count, latent] float32 on the CPU.
+// Sample i does not depend on count.
+torch::Tensor SampleLatents(const LatentMixture& latent, std::uint64_t seed, std::int64_t first,
+                            std::int64_t count);
+
+// The generator that samples are drawn from: the exponential moving average of the one in training
+// (Yazici et al., ICLR 2019), with batch statistics that belong to its own weights.
+class AveragedGenerator {
+ public:
+  // `seed`: of the z behind the batch statistics.
+  AveragedGenerator(const ModelOptions& options, std::uint64_t seed, torch::Device device);
+
+  // weights = decay * weights + (1 - decay) * source's. 0 copies.
+  void Follow(const Generator& source, double decay);
+
+  // Network values [count, 1, 32, 32, 32] float32 on the CPU of SampleLatents(...).
+  torch::Tensor Sample(const LatentMixture& latent, std::uint64_t seed, std::int64_t first,
+                       std::int64_t count);
+
+  const Generator& network() const { return network_; }
+  void WeightsChanged() { statistics_stale_ = true; }  // by someone else
+
+ private:
+  void RefreshStatistics();
+
+  ModelOptions options_;
+  std::uint64_t seed_;
+  torch::Device device_;
+  Generator network_;
+  bool statistics_stale_ = true;
+};
+
+}  // namespace antigrasp
