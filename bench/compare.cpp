@@ -10,7 +10,10 @@
 int main(int argc, char** argv) {
   using namespace antigrasp::bench;
   const std::vector<std::pair<std::string, void (*)()>> comparisons = {
-      {"epsilon", CompareEpsilon}, {"evaluation", CompareEvaluation}, {"perturb", ComparePerturb}};
+      {"epsilon", CompareEpsilon},
+      {"evaluation", CompareEvaluation},
+      {"perturb", ComparePerturb},
+      {"similarity", CompareSimilarity}};
   const std::vector<std::string> named(argv + 1, argv + argc);
   std::size_t known = 0;
   for (const auto& [name, compare] : comparisons) {
@@ -19,6 +22,6 @@ int main(int argc, char** argv) {
     if (named.empty() || times > 0) compare();
   }
   if (known == named.size()) return 0;
-  std::fprintf(stderr, "bench_compare [epsilon] [evaluation] [perturb]\n");
+  std::fprintf(stderr, "bench_compare [epsilon] [evaluation] [perturb] [similarity]\n");
   return 2;
 }

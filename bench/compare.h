@@ -5,5 +5,6 @@ namespace antigrasp::bench {
 void CompareEpsilon();
 void CompareEvaluation();
 void ComparePerturb();
+void CompareSimilarity();
 
 }  // namespace antigrasp::bench

@@ -4,16 +4,11 @@ import csv
 import pathlib
 import re
 import shutil
-import subprocess
-import sys
 import time
 
 import numpy as np
 
-BINARY = "build/release/bin/antigrasp"
-DOCUMENT = pathlib.Path("docs/reproduction.md")
-IMAGES = pathlib.Path("docs/images")
-SETS = ("cylinders", "prisms", "bottles")
+from reproduce_document import DOCUMENT, IMAGES, SETS, call, commit, pyplot, save_figure, write_section
 
 
 class Setting:
@@ -90,15 +85,10 @@ class Runner:
         self.left = sum(s.cost for s in settings) * len(SETS)
         self.rate = None  # seconds of wall time per unit of cost
 
-    def call(self, *arguments):
-        done = subprocess.run([BINARY, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        if done.returncode:
-            sys.exit(f"antigrasp {' '.join(map(str, arguments))}: exit {done.returncode}\n{done.stderr[-2000:]}")
-
     def prior(self, kind):
         file = self.out / f"{kind}.h5"
         if not file.exists():
-            self.call("dataset", "make", kind, "--count", self.objects, "--out", file)
+            call("dataset", "make", kind, "--count", self.objects, "--out", file)
         return file
 
     def result(self, setting, kind):
@@ -111,9 +101,9 @@ class Runner:
             left = f", {self.left * self.rate / 60:.0f} min left" if self.rate else ""
             print(f"{setting.label}, {kind}{left}", flush=True)
             shutil.rmtree(folder, ignore_errors=True)
-            self.call("perturb", *setting.flags.split(), self.prior(kind), "--out", folder)
+            call("perturb", *setting.flags.split(), self.prior(kind), "--out", folder)
             if any((folder / "after").iterdir()):
-                self.call("evaluate", folder / "after", "--baseline", folder / "before", "--noise", "dexnet", "--out", scores)
+                call("evaluate", folder / "after", "--baseline", folder / "before", "--noise", "dexnet", "--out", scores)
             else:
                 scores.write_text("object,baseline,graspability\n")
         self.left -= setting.cost
@@ -174,12 +164,7 @@ def row_numbers(rows, column):
 
 def histograms(path, columns, runner):
     """Rows: sets; columns: settings. Graspability before (grey) and after, by the mean before."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    figure, axes = plt.subplots(len(SETS), len(columns), figsize=(2.3 * len(columns), 5), sharex=True, sharey="row")
+    figure, axes = pyplot().subplots(len(SETS), len(columns), figsize=(2.3 * len(columns), 5), sharex=True, sharey="row")
     bins = np.linspace(0, 2, 26)
     for i, kind in enumerate(SETS):
         for j, setting in enumerate(columns):
@@ -198,22 +183,18 @@ def histograms(path, columns, runner):
             ax.tick_params(labelsize=8)
     axes[0, 0].legend(fontsize=7, frameon=False)
     figure.supxlabel("graspability / mean before (dashed: mean after)", fontsize=9)
-    figure.tight_layout()
-    IMAGES.mkdir(exist_ok=True)
-    figure.savefig(path, dpi=110, metadata={"Software": None})
+    save_figure(figure, path)
 
 
 def figure_1(path, runner):
     """|F_a| of a dodecahedron against iterations of IV-A, five seeds, two friction cones."""
-    import matplotlib.pyplot as plt
-
     solid = runner.out / "dodecahedron.stl"
-    runner.call("shape", "dodecahedron", "--phi", 0, "--size-mm", 60, "--out", solid)
-    figure, axes = plt.subplots(1, 2, figsize=(7, 2.6))
+    call("shape", "dodecahedron", "--phi", 0, "--size-mm", 60, "--out", solid)
+    figure, axes = pyplot().subplots(1, 2, figsize=(7, 2.6))
     for ax, cone in zip(axes, (10, 26.565)):
         for seed in range(1, 6):
             folder = runner.out / f"dodecahedron-{cone}-{seed}"
-            runner.call("perturb", "exhaustive", solid, "--cone", cone, "--seed", seed, "--history", "--out", folder)
+            call("perturb", "exhaustive", solid, "--cone", cone, "--seed", seed, "--history", "--out", folder)
             history = np.genfromtxt(folder / "history.csv", delimiter=",", skip_header=1, usecols=(1, 2, 3))
             ax.plot(history[:, 0], history[:, 1], color="#b2182b", linewidth=1, label="all" if seed == 1 else None)
             ax.plot(history[:, 0], history[:, 2], color="0.4", linewidth=1, linestyle="--",
@@ -225,8 +206,7 @@ def figure_1(path, runner):
         ax.spines[["top", "right"]].set_visible(False)
     axes[0].set_ylabel("antipodal pairs of faces", fontsize=8)
     axes[0].legend(fontsize=7, frameon=False)
-    figure.tight_layout()
-    figure.savefig(path, dpi=110, metadata={"Software": None})
+    save_figure(figure, path)
 
 
 def picture(path, columns, runner):
@@ -242,19 +222,7 @@ def picture(path, columns, runner):
             if source.exists():
                 shutil.copy(source, row / f"{number}.stl")
         rows.append(row)
-    runner.call("sheet", *rows, "--pixels", 180, "--out", path)
-
-
-def write_section(name, text):
-    """Replaces what stands between the section's marks in the document, or adds it."""
-    begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
-    old = DOCUMENT.read_text() if DOCUMENT.exists() else "# Reproduction\n"
-    section = f"{begin}\n{text.strip()}\n{end}\n"
-    pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end) + "\n", re.S)
-    new = pattern.sub(lambda _: section, old) if begin in old else old.rstrip() + "\n\n" + section
-    temporary = DOCUMENT.with_suffix(".md.part")
-    temporary.write_text(new)
-    temporary.replace(DOCUMENT)
+    call("sheet", *rows, "--pixels", 180, "--out", path)
 
 
 def analytic(runner, objects, started):
@@ -264,11 +232,10 @@ def analytic(runner, objects, started):
     histograms(IMAGES / "analytic_rotation.png", rotation[1:7], runner)
     picture(IMAGES / "perturbed.png", [random[0], random[2], rotation[5], *search], runner)
     figure_1(IMAGES / "analytic_exhaustive.png", runner)
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
     write_section("analytic", f"""
 ## Sections VI-A and VI-B: analytic perturbations
 
-`scripts/reproduce analytic`, commit {commit}, {objects} objects a set, {(time.time() - started) / 60:.0f} minutes.
+`scripts/reproduce analytic`, commit {commit()}, {objects} objects a set, {(time.time() - started) / 60:.0f} minutes.
 
 Every cell names cylinders / prisms / bottles. The reduction is that of mean graspability (kappa) from the originals to the
 printable results, ± its 95 % interval over objects, equal random draws before and after; "broken" is the share without a

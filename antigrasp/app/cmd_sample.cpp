@@ -7,6 +7,7 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/checkpoints/checkpoint.h"
+#include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/train/episode_loop.h"
 
@@ -25,15 +26,14 @@ struct SampleFlags {
 };
 
 void Sample(const SampleFlags& flags) {
-  const fs::path path = fs::is_directory(flags.checkpoint) ? RunFolder{flags.checkpoint}.Latest()
-                                                           : fs::path(flags.checkpoint);
+  const fs::path path = FindNetworks(flags.checkpoint);
   const AtomicFile probe(flags.out);  // refuses an unwritable target before the work
   const Checkpoint checkpoint = ReadCheckpoint(path);
   RunConfig config = NetworksFromToml(checkpoint.config, path.string());
   config.device = flags.device;
   config.threads = flags.threads;
   GanTrainer trainer = MakeTrainer(config);
-  ReadNetworks(path, [&](auto* archive) { trainer.Load(archive); });
+  ReadNetworks(path, [&](auto* archive) { trainer.LoadNetworks(archive); });
 
   ConsoleObserver console;
   const ProgressFn progress = console.Phase("sampling");
@@ -65,7 +65,9 @@ void Sample(const SampleFlags& flags) {
 void AddSampleCommand(CLI::App* app) {
   const auto flags = std::make_shared<SampleFlags>();
   CLI::App* command = app->add_subcommand("sample", "Sample SDF grids from a checkpoint");
-  command->add_option("CKPT", flags->checkpoint, "checkpoint.pt, or the folder of a run")
+  command
+      ->add_option("CKPT", flags->checkpoint,
+                   "checkpoint, folder of a run, or name of pretrained networks")
       ->required();
   command->add_option("--count", flags->count, "grids to sample")
       ->check(CLI::Range(1, 1000000))

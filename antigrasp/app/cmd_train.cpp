@@ -7,6 +7,8 @@
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
+#include "antigrasp/checkpoints/checkpoint.h"
+#include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/train/cem_run.h"
 
@@ -23,19 +25,32 @@ struct TrainFlags {
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
   std::string device;
+  std::string mode;
+  std::string start;
+  bool from_scratch = false;
   bool or_resume = false;
   bool overwrite = false;
 };
+
+// What a run that begins with these networks has for model.* if it does not say otherwise.
+ModelOptions ModelOf(const std::string& networks) {
+  const fs::path path = FindNetworks(networks);
+  return NetworksFromToml(ReadCheckpoint(path).config, path.string()).model;
+}
 
 RunConfig ReadConfig(const TrainFlags& flags) {
   RunConfig config;
   OptionTable table;
   Bind(&table, &config);
+  if (!flags.start.empty()) config.model = ModelOf(flags.start);
   if (!flags.config.empty()) table.ApplyFile(flags.config);
   for (const std::string& text : flags.overrides) table.ApplyOverride(text);
   if (flags.seed) config.seed = *flags.seed;
   if (flags.threads) table.ApplyValue("run.threads", std::to_string(*flags.threads), "--threads");
   if (!flags.device.empty()) config.device = flags.device;
+  if (!flags.mode.empty()) table.ApplyValue("cem.mode", flags.mode, "--mode");
+  if (!flags.start.empty()) config.start = flags.start;
+  if (flags.from_scratch) config.start.clear();
   Validate(config, flags.config.empty() ? "configuration" : flags.config);
   return config;
 }
@@ -99,6 +114,11 @@ void AddTrainCommand(CLI::App* app) {
   command->add_option("--seed", flags->seed, "same as --set run.seed=");
   command->add_option("--threads", flags->threads, "same as --set run.threads=");
   command->add_option("--device", flags->device, "same as --set run.device=");
+  command->add_option("--mode", flags->mode, "same as --set cem.mode=: gan or latent");
+  CLI::Option* from = command->add_option(
+      "--from", flags->start, "same as --set run.start=, and takes model.* from these networks");
+  command->add_flag("--from-scratch", flags->from_scratch, "train episode 0: no run.start")
+      ->excludes(from);
   command->callback([flags] { Train(*flags); });
 }
 

@@ -11,6 +11,7 @@ void AddTrainCommand(CLI::App* app);
 void AddSampleCommand(CLI::App* app);
 void AddRemeshCommand(CLI::App* app);
 void AddEvaluateCommand(CLI::App* app);
+void AddCompareCommand(CLI::App* app);
 void AddQualityCommand(CLI::App* app);
 void AddPerturbCommand(CLI::App* app);
 void AddShapeCommand(CLI::App* app);
@@ -18,6 +19,7 @@ void AddPosesCommand(CLI::App* app);
 void AddTrialCommand(CLI::App* app);
 void AddSheetCommand(CLI::App* app);
 void AddExportCommand(CLI::App* app);
+void AddGeneratorCommand(CLI::App* app);
 void AddInfoCommand(CLI::App* app);
 
 }  // namespace antigrasp

@@ -53,6 +53,7 @@ int Run(int argc, char** argv) {
   AddSampleCommand(&app);
   AddRemeshCommand(&app);
   AddEvaluateCommand(&app);
+  AddCompareCommand(&app);
   AddQualityCommand(&app);
   AddPerturbCommand(&app);
   AddShapeCommand(&app);
@@ -60,6 +61,7 @@ int Run(int argc, char** argv) {
   AddTrialCommand(&app);
   AddSheetCommand(&app);
   AddExportCommand(&app);
+  AddGeneratorCommand(&app);
   AddInfoCommand(&app);
   AddHelpCommand(&app, &topic);
   try {

@@ -12,20 +12,38 @@ constexpr double kLeak = 0.2;
 
 torch::Tensor LeakyRelu(torch::Tensor x) { return torch::leaky_relu_(x, kLeak); }
 
+// [pack N, C, s, s, s] -> [pack N, 2 C, s, s, s]: every shape's features, then their deviation over
+// its pack.
+torch::Tensor WithDeviation(const torch::Tensor& x, std::int64_t pack) {
+  const torch::Tensor packs = x.view({-1, pack, x.size(1), x.size(2), x.size(3), x.size(4)});
+  const torch::Tensor deviation =
+      ((packs - packs.mean(1, true)).square().mean(1, true) + 1e-8).sqrt();
+  return torch::cat({x, deviation.expand_as(packs).reshape(x.sizes())}, 1);
+}
+
 }  // namespace
 
 DiscriminatorImpl::DiscriminatorImpl(const ModelOptions& options) : options_(options) {
-  const std::int64_t c = options_.width;
-  const std::vector<std::vector<std::int64_t>> shapes = {{c, options.pack, 4, 4, 4},
+  const std::int64_t c = options_.width_d > 0 ? options_.width_d : options_.width;
+  const std::int64_t inputs = PacksFeatures() ? 1 : options.pack;
+  const std::int64_t sets = PacksFeatures() ? 2 : 1;
+  const std::vector<std::vector<std::int64_t>> shapes = {{c, inputs, 4, 4, 4},
                                                          {2 * c, c, 4, 4, 4},
                                                          {4 * c, 2 * c, 4, 4, 4},
-                                                         {8 * c, 4 * c, 4, 4, 4},
+                                                         {8 * c, sets * 4 * c, 4, 4, 4},
                                                          {1, 8 * c * 8}};
   for (const std::vector<std::int64_t>& shape : shapes) {
     const std::string name = std::to_string(weights_.size() + 1);
     weights_.push_back(
         register_module("layer" + name, SpectralWeight(shape, options_.spectral_norm)));
     biases_.push_back(register_parameter("bias" + name, torch::zeros({shape[0]})));
+  }
+  for (int i = 0; options_.block == "residual" && i < 3; ++i) {
+    const std::int64_t channels = c << i;
+    refine_.push_back(
+        register_module("refine" + std::to_string(i + 1),
+                        SpectralWeight(std::vector<std::int64_t>{channels, channels, 3, 3, 3},
+                                       options_.spectral_norm)));
   }
   RngStream rng(0, "discriminator");
   Initialize(&rng);
@@ -36,9 +54,18 @@ void DiscriminatorImpl::Initialize(RngStream* rng) {
   for (SpectralWeight& weight : weights_) {
     weight->Initialize(kWeightSd, rng);
   }
+  for (SpectralWeight& weight : refine_) {
+    weight->Initialize(kWeightSd, rng);
+  }
   for (torch::Tensor& bias : biases_) {
     bias.zero_();
   }
+}
+
+torch::Tensor DiscriminatorImpl::Refine(std::size_t level, const torch::Tensor& x) {
+  if (refine_.empty()) return LeakyRelu(x);
+  const torch::Tensor y = torch::conv3d(torch::leaky_relu(x, kLeak), refine_[level](), {}, 1, 1);
+  return LeakyRelu(x + y);
 }
 
 double DiscriminatorImpl::LargestSigma() {
@@ -54,10 +81,12 @@ torch::Tensor DiscriminatorImpl::forward(const torch::Tensor& sdf) {
 }
 
 torch::Tensor DiscriminatorImpl::ForwardFolded(const torch::Tensor& folded) {
-  const auto packed = folded.reshape({-1, 8 * options_.pack, 17, 17, 17});
-  torch::Tensor x = LeakyRelu(DownConv(packed, weights_[0](), biases_[0]));  // [N, c, 16, 16, 16]
-  x = LeakyRelu(DownConv(Fold(x), weights_[1](), biases_[1]));               // [N, 2c, 8, 8, 8]
-  x = LeakyRelu(DownConv(Fold(x), weights_[2](), biases_[2]));               // [N, 4c, 4, 4, 4]
+  const std::int64_t inputs = PacksFeatures() ? 1 : options_.pack;
+  const auto packed = folded.reshape({-1, 8 * inputs, 17, 17, 17});
+  torch::Tensor x = Refine(0, DownConv(packed, weights_[0](), biases_[0]));  // [N, c, 16, 16, 16]
+  x = Refine(1, DownConv(Fold(x), weights_[1](), biases_[1]));               // [N, 2c, 8, 8, 8]
+  x = Refine(2, DownConv(Fold(x), weights_[2](), biases_[2]));               // [N, 4c, 4, 4, 4]
+  if (PacksFeatures()) x = WithDeviation(x, options_.pack);                  // [N, 8c, 4, 4, 4]
   x = LeakyRelu(DownConv(Fold(x), weights_[3](), biases_[3]));               // [N, 8c, 2, 2, 2]
   return torch::linear(x.flatten(1), weights_[4](), biases_[4]).squeeze(1);  // [N]
 }

@@ -12,6 +12,7 @@ namespace {
 constexpr int kUpLayers = 3;
 constexpr double kKernelNoise = 0.02;  // of the channel mix's deviation
 constexpr double kLastLayerSd = 0.3;   // at width 8
+constexpr double kRefineScale = 0.1;   // a residual branch begins small
 constexpr double kOutsideBias = -0.5;  // tanh(-0.5): every node starts outside
 constexpr std::array<float, 4> kLinearTaps = {0.25F, 0.75F, 0.75F, 0.25F};
 
@@ -44,6 +45,13 @@ GeneratorImpl::GeneratorImpl(const ModelOptions& options) : options_(options) {
           register_parameter("bias" + std::to_string(i), torch::zeros({8 * c >> i, 1, 1, 1})));
     }
   }
+  for (int i = 0; options_.block == "residual" && i < kUpLayers; ++i) {
+    const std::int64_t channels = 4 * c >> i;
+    refine_weights_.push_back(register_parameter("refine" + std::to_string(i + 1) + "_weight",
+                                                 torch::zeros({channels, channels, 3, 3, 3})));
+    refine_norms_.push_back(register_module("refine" + std::to_string(i + 1) + "_norm",
+                                            torch::nn::BatchNorm3d(channels)));
+  }
   last_weight_ = register_parameter("last_weight", torch::zeros({c, 1, 4, 4, 4}));
   last_bias_ = register_parameter("last_bias", torch::zeros({1}));
   RngStream rng(0, "generator");
@@ -58,8 +66,17 @@ void GeneratorImpl::Initialize(RngStream* rng) {
     const double sd = std::sqrt(2.0 / static_cast<double>(weight.size(0)));
     weight.copy_(TrilinearKernel(weight.sizes(), sd, rng));
   }
-  for (torch::nn::BatchNorm3d& norm : norms_) {
-    norm->reset_parameters();  // scale 1, shift 0, statistics restarted
+  for (torch::Tensor& weight : refine_weights_) {
+    weight.copy_(
+        NormalTensor(weight.sizes(), std::sqrt(2.0 / (27.0 * double(weight.size(1)))), rng));
+  }
+  for (auto* norms : {&norms_, &refine_norms_}) {
+    for (torch::nn::BatchNorm3d& norm : *norms) {
+      norm->reset_parameters();  // scale 1, shift 0, statistics restarted
+    }
+  }
+  for (torch::nn::BatchNorm3d& norm : refine_norms_) {
+    norm->weight.fill_(kRefineScale);
   }
   for (torch::Tensor& bias : biases_) {
     bias.zero_();
@@ -70,9 +87,11 @@ void GeneratorImpl::Initialize(RngStream* rng) {
 }
 
 void GeneratorImpl::RestartStatistics() {
-  for (torch::nn::BatchNorm3d& norm : norms_) {
-    norm->options.momentum(c10::nullopt);
-    norm->reset_running_stats();
+  for (auto* norms : {&norms_, &refine_norms_}) {
+    for (torch::nn::BatchNorm3d& norm : *norms) {
+      norm->options.momentum(c10::nullopt);
+      norm->reset_running_stats();
+    }
   }
 }
 
@@ -80,14 +99,21 @@ torch::Tensor GeneratorImpl::Activate(std::size_t layer, const torch::Tensor& x)
   return (options_.batch_norm ? norms_[layer](x) : x + biases_[layer]).relu_();
 }
 
+// x: activated. Adds a convolution of itself, normalised and activated.
+torch::Tensor GeneratorImpl::Refine(std::size_t level, const torch::Tensor& x) {
+  if (refine_weights_.empty()) return x;
+  const torch::Tensor y = torch::conv3d(x, refine_weights_[level], {}, 1, 1);
+  return (x + refine_norms_[level](y)).relu_();
+}
+
 torch::Tensor GeneratorImpl::ForwardFolded(const torch::Tensor& z) {
   torch::Tensor x = project_(z).view({-1, 8 * options_.width, 2, 2, 2});
-  x = Activate(0, x);                                       // [N, 8c, 2, 2, 2]
-  x = Activate(1, Unfold(UpConv(x, up_weights_[0])));       // [N, 4c, 4, 4, 4]
-  x = Activate(2, Unfold(UpConv(x, up_weights_[1])));       // [N, 2c, 8, 8, 8]
-  x = Activate(3, Unfold(UpConv(x, up_weights_[2])));       // [N, c, 16, 16, 16]
-  x = UpConv(x, last_weight_) + last_bias_;                 // [N, 8, 17, 17, 17]
-  return BlurAndClearRing(x, options_.output_blur).tanh();  // [N, 8, 17, 17, 17]
+  x = Activate(0, x);                                             // [N, 8c, 2, 2, 2]
+  x = Refine(0, Activate(1, Unfold(UpConv(x, up_weights_[0]))));  // [N, 4c, 4, 4, 4]
+  x = Refine(1, Activate(2, Unfold(UpConv(x, up_weights_[1]))));  // [N, 2c, 8, 8, 8]
+  x = Refine(2, Activate(3, Unfold(UpConv(x, up_weights_[2]))));  // [N, c, 16, 16, 16]
+  x = UpConv(x, last_weight_) + last_bias_;                       // [N, 8, 17, 17, 17]
+  return BlurAndClearRing(x, options_.output_blur).tanh();        // [N, 8, 17, 17, 17]
 }
 
 torch::Tensor GeneratorImpl::forward(const torch::Tensor& z) {

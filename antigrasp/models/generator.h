@@ -32,12 +32,15 @@ class GeneratorImpl : public torch::nn::Module {
 
  private:
   torch::Tensor Activate(std::size_t layer, const torch::Tensor& x);
+  torch::Tensor Refine(std::size_t level, const torch::Tensor& x);
 
   ModelOptions options_;
   torch::nn::Linear project_{nullptr};
   std::vector<torch::Tensor> up_weights_;      // [in, out, 4, 4, 4]
   std::vector<torch::nn::BatchNorm3d> norms_;  // one per hidden layer, or instead of them
   std::vector<torch::Tensor> biases_;          // one bias per channel
+  std::vector<torch::Tensor> refine_weights_;  // residual convolutions at 4^3, 8^3, 16^3, or none
+  std::vector<torch::nn::BatchNorm3d> refine_norms_;
   torch::Tensor last_weight_, last_bias_;
 };
 TORCH_MODULE(Generator);

@@ -6,11 +6,19 @@ void Bind(OptionTable* table, ModelOptions* options) {
   table->Add("model.width", &options->width, 1, 256,
              "channels of the generator's last hidden layer (16^3); 8 for two cores, 64 for a GPU");
   table->Add("model.latent", &options->latent, 1, 4096, "length of the noise vector z");
+  table->Add("model.components", &options->components, 1, 1000,
+             "Gaussians of the mixture of z; all N(0, I) until latent-space CEM moves them");
   table->Add("model.resolution", &options->resolution, 32, 32, "nodes along one side of the grid");
   table->Add("model.spectral_norm", &options->spectral_norm,
              "divide the discriminator's weights by their largest singular value");
   table->Add("model.pack", &options->pack, 1, 64,
              "shapes that the discriminator judges together (PacGAN); divides gan.batch");
+  table->Add("model.pack_at", &options->pack_at, {"input", "features"},
+             "where they meet: channels of the first layer, or the deviation of features at 4^3");
+  table->Add("model.width_d", &options->width_d, 0, 256,
+             "width of the discriminator; 0 = model.width");
+  table->Add("model.block", &options->block, {"plain", "residual"},
+             "residual: a 3^3 convolution beside every resolution but 2^3, in both networks");
   table->Add("model.batch_norm", &options->batch_norm, "batch normalisation in the generator");
   table->Add("model.output_blur", &options->output_blur,
              "smooth the generator's output with [1 2 1]/4 along each axis, before tanh");

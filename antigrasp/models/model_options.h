@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "antigrasp/core/options.h"
 
 namespace antigrasp {
@@ -8,13 +10,19 @@ namespace antigrasp {
 struct ModelOptions {
   int width = 8;              // c: channels of the generator's last hidden layer at 16^3
   int latent = 200;           // z in R^200 (paper V-A)
+  int components = 8;         // Gaussians of the mixture of z: all N(0, I) but in latent-space CEM
   int resolution = 32;        // 32 only
   bool spectral_norm = true;  // on the discriminator; off reproduces VI-D
   // Shapes that the discriminator judges together, as channels of one input (PacGAN, Lin et al.,
   // NeurIPS 2018): a generator that repeats itself is found out. 1 = the paper.
   int pack = 1;
-  bool batch_norm = true;   // in the generator
-  bool output_blur = true;  // [1 2 1]/4 before tanh
+  // Where the shapes of a pack meet: "input" as channels of the first layer (PacGAN), "features" as
+  // the deviation over the pack of every feature at 4^3 (Karras et al., ICLR 2018, per channel).
+  std::string pack_at = "input";
+  int width_d = 0;              // of the discriminator; 0 = width
+  std::string block = "plain";  // "residual": a 3^3 convolution beside every resolution but 2^3
+  bool batch_norm = true;       // in the generator
+  bool output_blur = true;      // [1 2 1]/4 before tanh
   // A network value v stands for the distance truncation * v, clamped; 0 = raw distances times
   // raw_scale.
   double truncation = 0.1;

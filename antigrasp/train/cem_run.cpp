@@ -2,7 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <sstream>
+
 #include "antigrasp/checkpoints/checkpoint.h"
+#include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/train/episode_loop.h"
@@ -19,6 +22,29 @@ ShapeSet PriorOf(const RunConfig& config, RunObserver* observer) {
   options.threads = config.threads;
   return MakePriorSet(
       options, observer->Phase("making " + std::to_string(options.count) + " " + options.kind));
+}
+
+std::string ModelToml(ModelOptions model) {
+  OptionTable table;
+  Bind(&table, &model);
+  return table.Dump();
+}
+
+// Networks to start from must be those the configuration describes.
+void RequireSameModel(const RunConfig& config) {
+  if (config.start.empty()) return;
+  const fs::path path = FindNetworks(config.start);
+  const std::string theirs =
+      ModelToml(NetworksFromToml(ReadCheckpoint(path).config, path.string()).model);
+  std::istringstream ours_lines(ModelToml(config.model)), theirs_lines(theirs);
+  for (std::string ours, other; std::getline(ours_lines, ours);) {
+    std::getline(theirs_lines, other);
+    if (ours != other) {
+      const auto setting = [](const std::string& line) { return line.substr(0, line.find("  #")); };
+      throw InputError("model." + setting(ours), config.start,
+                       setting(other) + ", as these networks have it");
+    }
+  }
 }
 
 // The control begins where the run it belongs to ended episode 0: same networks, same prior.
@@ -64,6 +90,7 @@ RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver*
                      "a new folder, --resume to go on, or --overwrite to start again");
   }
   Validate(config, "configuration");
+  RequireSameModel(config);
   const GanTrainer probe = MakeTrainer(config);  // refuses a device that is not there, first
   const ShapeSet prior = PriorOf(config, observer);
   NetworkValuesOf(prior, config.model, config.prior_file);  // refuses an unusable set, too

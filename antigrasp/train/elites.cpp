@@ -2,46 +2,73 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <numeric>
 
-#include "antigrasp/core/rng.h"
+#include "antigrasp/core/check.h"
 
 namespace antigrasp {
 namespace {
 
-std::vector<std::int64_t> ValidIndices(const std::vector<double>& graspability) {
-  std::vector<std::int64_t> indices;
-  for (std::size_t i = 0; i < graspability.size(); ++i) {
-    if (!std::isnan(graspability[i])) indices.push_back(static_cast<std::int64_t>(i));
+std::vector<std::int64_t> Shares(const std::vector<double>& weight, std::int64_t keep) {
+  const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
+  AG_CHECK(total > 0.0, "at least one cell has a weight");
+  std::vector<std::int64_t> shares;
+  std::vector<double> remainders;
+  std::int64_t given = 0;
+  for (const double w : weight) {
+    const double exact = static_cast<double>(keep) * w / total;
+    shares.push_back(static_cast<std::int64_t>(exact));
+    remainders.push_back(static_cast<double>(shares.back()) - exact);  // lowest first
+    given += shares.back();
   }
-  return indices;
-}
-
-std::vector<std::int64_t> FirstSorted(std::vector<std::int64_t> indices, std::int64_t keep) {
-  indices.resize(std::min(indices.size(), static_cast<std::size_t>(keep)));
-  std::sort(indices.begin(), indices.end());
-  return indices;
+  for (const std::int64_t i : LeastGraspable(remainders, keep - given)) {
+    ++shares[static_cast<std::size_t>(i)];
+  }
+  return shares;
 }
 
 }  // namespace
 
 std::vector<std::int64_t> LeastGraspable(const std::vector<double>& graspability,
                                          std::int64_t keep) {
-  std::vector<std::int64_t> indices = ValidIndices(graspability);
+  std::vector<std::int64_t> indices;
+  for (std::size_t i = 0; i < graspability.size(); ++i) {
+    if (!std::isnan(graspability[i])) indices.push_back(static_cast<std::int64_t>(i));
+  }
   std::stable_sort(indices.begin(), indices.end(), [&](std::int64_t a, std::int64_t b) {
     return graspability[static_cast<std::size_t>(a)] < graspability[static_cast<std::size_t>(b)];
   });
-  return FirstSorted(std::move(indices), keep);
+  indices.resize(std::min(indices.size(), static_cast<std::size_t>(keep)));
+  std::sort(indices.begin(), indices.end());
+  return indices;
 }
 
-std::vector<std::int64_t> RandomKeep(const std::vector<double>& graspability, std::int64_t keep,
-                                     std::uint64_t seed, std::uint64_t stage) {
-  std::vector<std::int64_t> indices = ValidIndices(graspability);
-  RngStream rng(seed, "control", stage);
-  for (std::size_t i = indices.size(); i > 1; --i) {
-    std::swap(indices[i - 1], indices[rng.Below(i)]);  // Fisher-Yates
+std::vector<double> RandomOrder(const std::vector<double>& graspability, RngStream* rng) {
+  std::vector<double> order;
+  for (const double value : graspability) {
+    const double key = rng->Uniform();
+    order.push_back(std::isnan(value) ? value : key);
   }
-  return FirstSorted(std::move(indices), keep);
+  return order;
+}
+
+SharedElites LeastGraspableByCell(const std::vector<double>& graspability,
+                                  const std::vector<std::int64_t>& cell,
+                                  const std::vector<double>& weight, std::int64_t keep) {
+  AG_CHECK(cell.size() == graspability.size(), "one cell for each object");
+  SharedElites shared;
+  shared.missing = Shares(weight, keep);
+  for (std::size_t c = 0; c < weight.size(); ++c) {
+    std::vector<double> inside = graspability;
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      if (cell[i] != static_cast<std::int64_t>(c)) inside[i] = std::nan("");
+    }
+    const std::vector<std::int64_t> kept = LeastGraspable(inside, shared.missing[c]);
+    shared.elites.insert(shared.elites.end(), kept.begin(), kept.end());
+    shared.missing[c] -= static_cast<std::int64_t>(kept.size());
+  }
+  std::sort(shared.elites.begin(), shared.elites.end());
+  return shared;
 }
 
 }  // namespace antigrasp

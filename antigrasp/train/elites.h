@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "antigrasp/core/rng.h"
+
 namespace antigrasp {
 
 // The `keep` objects with the lowest graspability, as ascending indices (V-B, VI-C). NaN marks a
@@ -10,9 +12,22 @@ namespace antigrasp {
 std::vector<std::int64_t> LeastGraspable(const std::vector<double>& graspability,
                                          std::int64_t keep);
 
-// The control: `keep` valid objects drawn without replacement from stream (seed, "control", stage),
-// ascending.
-std::vector<std::int64_t> RandomKeep(const std::vector<double>& graspability, std::int64_t keep,
-                                     std::uint64_t seed, std::uint64_t stage);
+// Uniform random numbers in place of the graspability, NaN where that is NaN: the least of them are
+// a random draw of valid objects (the control).
+std::vector<double> RandomOrder(const std::vector<double>& graspability, RngStream* rng);
+
+// Elites shared out over cells.
+struct SharedElites {
+  std::vector<std::int64_t> elites;   // ascending indices of objects
+  std::vector<std::int64_t> missing;  // per cell: the part of its share that no valid object filled
+};
+
+// `keep` is shared out over the cells in proportion to `weight` (largest remainders, ties to the
+// lower cell), and each cell keeps the least graspable of its own: one elite archive cell by cell,
+// as in MAP-Elites (Mouret & Clune 2015), with the prior's density as capacity. cell[i] in
+// [0, weight.size()); weights >= 0, not all 0.
+SharedElites LeastGraspableByCell(const std::vector<double>& graspability,
+                                  const std::vector<std::int64_t>& cell,
+                                  const std::vector<double>& weight, std::int64_t keep);
 
 }  // namespace antigrasp

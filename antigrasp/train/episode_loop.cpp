@@ -8,13 +8,14 @@
 #include <optional>
 
 #include "antigrasp/checkpoints/checkpoint.h"
+#include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
 #include "antigrasp/core/rng.h"
-#include "antigrasp/train/elites.h"
 #include "antigrasp/train/run_output.h"
 #include "antigrasp/train/scalar_log.h"
+#include "antigrasp/train/selection.h"
 
 namespace antigrasp {
 namespace {
@@ -33,13 +34,13 @@ class EpisodeLoop {
   void Restore();
   void ScorePrior();
   void TrainEpisode();
+  void TrainUpdates();
   StepReport TrainStep();
   torch::Tensor SampleStage();
-  std::vector<std::int64_t> Select(const ScoredStage& scored) const;
-  void Record(const ScoredStage& scored, const std::vector<std::int64_t>& elites);
-  void BeginEpisode(int episode);
-  torch::Tensor TrainingSet(const ScoredStage& scored,
-                            const std::vector<std::int64_t>& elites) const;
+  Selection Select(const ScoredStage& scored) const;
+  void Record(const ScoredStage& scored, const Selection& selection);
+  void BeginEpisode(int episode, const ScoredStage& scored, const Selection& selection);
+  std::uint64_t SampleSeed() const;  // of this episode's samples
   void Save(const fs::path& path, bool finished = false) const;
   int episode() const { return trainer_.episode(); }
   std::int64_t UpdatesSoFar() const;  // over all episodes
@@ -49,7 +50,8 @@ class EpisodeLoop {
   const RunFolder& folder_;
   RunObserver* observer_;
   GanTrainer trainer_;
-  torch::Tensor prior_;   // network values of the prior set, float16
+  torch::Tensor prior_;  // network values of the prior set, float16
+  EliteSelector selector_;
   torch::Tensor shapes_;  // what the current episode trains on, float16
   std::vector<LossRow> losses_;
   std::optional<ScalarLog> log_;
@@ -58,10 +60,13 @@ class EpisodeLoop {
 };
 
 EpisodeLoop::EpisodeLoop(const RunConfig& config, const RunFolder& folder, RunObserver* observer)
-    : config_(config), folder_(folder), observer_(observer), trainer_(MakeTrainer(config)) {
-  prior_ = NetworkValuesOf(ReadShapeSet(folder.Prior()), config.model, folder.Prior().string());
-  shapes_ = prior_;
-}
+    : config_(config),
+      folder_(folder),
+      observer_(observer),
+      trainer_(MakeTrainer(config)),
+      prior_(NetworkValuesOf(ReadShapeSet(folder.Prior()), config.model, folder.Prior().string())),
+      selector_(config, prior_),
+      shapes_(prior_) {}
 
 std::vector<StageStatistics> EpisodeLoop::Run() {
   Restore();
@@ -73,21 +78,26 @@ std::vector<StageStatistics> EpisodeLoop::Run() {
     TrainEpisode();             // theta: the GAN on the shapes
     const ScoredStage scored =  // x ~ p_theta, g_gamma(x, Q)
         ScoreStage(SampleStage(), config_, StageName(episode(), "scoring"), observer_);
-    const std::vector<std::int64_t> elites = Select(scored);  // the rare event: lowest g
-    Record(scored, elites);
+    const Selection selection = Select(scored);  // the rare event: lowest g
+    Record(scored, selection);
     if (episode() == config_.cem.episodes) {
       ExportLeastGraspable(scored, config_, folder_);
       Save(folder_.Latest(), /*finished=*/true);
       return rows_;
     }
-    shapes_ = TrainingSet(scored, elites);
-    BeginEpisode(episode() + 1);
+    BeginEpisode(episode() + 1, scored, selection);
   }
 }
 
 void EpisodeLoop::Restore() {
   if (!fs::exists(folder_.Latest())) {
-    trainer_.BeginEpisode(0, config_.cem.prior_iterations, /*restart_networks=*/true);
+    if (config_.start.empty()) {
+      trainer_.BeginEpisode(0, config_.cem.prior_iterations, /*restart_networks=*/true);
+    } else {
+      ReadNetworks(FindNetworks(config_.start),
+                   [&](auto* archive) { trainer_.LoadNetworks(archive); });
+      trainer_.BeginFixedEpisode(0, trainer_.latent());
+    }
     return;
   }
   const Checkpoint checkpoint = ReadCheckpoint(folder_.Latest());
@@ -127,6 +137,13 @@ void EpisodeLoop::ScorePrior() {
 }
 
 void EpisodeLoop::TrainEpisode() {
+  if (trainer_.step() < trainer_.iterations()) TrainUpdates();
+  MakeFolder(folder_.Episode(episode()));
+  Save(folder_.EpisodeCheckpoint(episode()));
+  Save(folder_.Latest());
+}
+
+void EpisodeLoop::TrainUpdates() {
   using Clock = std::chrono::steady_clock;
   const ProgressFn progress = observer_->Phase(StageName(episode(), "training"));
   Clock::time_point recorded = Clock::now();
@@ -144,9 +161,6 @@ void EpisodeLoop::TrainEpisode() {
     if (stop) throw Interrupted();
     progress(trainer_.step(), trainer_.iterations());
   }
-  MakeFolder(folder_.Episode(episode()));
-  Save(folder_.EpisodeCheckpoint(episode()));
-  Save(folder_.Latest());
 }
 
 StepReport EpisodeLoop::TrainStep() {
@@ -161,40 +175,35 @@ StepReport EpisodeLoop::TrainStep() {
 
 torch::Tensor EpisodeLoop::SampleStage() {
   constexpr std::int64_t kChunk = 64;
-  const std::uint64_t seed =
-      RngStream(config_.seed, "stage", static_cast<std::uint64_t>(episode())).NextU64();
   const ProgressFn progress = observer_->Phase(StageName(episode(), "sampling"));
   const std::int64_t count = config_.cem.samples;
   std::vector<torch::Tensor> chunks;
   for (std::int64_t first = 0; first < count; first += kChunk) {
-    chunks.push_back(trainer_.Sample(seed, first, std::min(kChunk, count - first)));
+    chunks.push_back(trainer_.Sample(SampleSeed(), first, std::min(kChunk, count - first)));
     progress(std::min(first + kChunk, count), count);
   }
   return torch::cat(chunks);
 }
 
-std::vector<std::int64_t> EpisodeLoop::Select(const ScoredStage& scored) const {
-  const std::int64_t keep = config_.cem.keep;
-  std::vector<std::int64_t> elites = config_.cem.select == "random"
-                                         ? RandomKeep(scored.graspabilities, keep, config_.seed,
-                                                      static_cast<std::uint64_t>(episode()))
-                                         : LeastGraspable(scored.graspabilities, keep);
-  if (elites.empty()) {
+Selection EpisodeLoop::Select(const ScoredStage& scored) const {
+  Selection selection = selector_.Select(scored, episode());
+  const std::size_t usable = selection.elites.size();
+  if (usable == 0) {
     throw RuntimeFailure("episode " + std::to_string(episode()) + ": none of " +
                          std::to_string(config_.cem.samples) +
                          " samples is a usable object; the networks of that episode are in " +
                          folder_.Latest().string());
   }
-  if (static_cast<std::int64_t>(elites.size()) < keep) {
-    spdlog::warn("only {} of {} samples are usable: fewer elites than cem.keep = {}", elites.size(),
-                 config_.cem.samples, keep);
+  if (static_cast<std::int64_t>(usable) < config_.cem.keep && config_.cem.variant == "paper") {
+    spdlog::warn("only {} of {} samples are usable: fewer elites than cem.keep = {}", usable,
+                 config_.cem.samples, config_.cem.keep);
   }
-  return elites;
+  return selection;
 }
 
-void EpisodeLoop::Record(const ScoredStage& scored, const std::vector<std::int64_t>& elites) {
+void EpisodeLoop::Record(const ScoredStage& scored, const Selection& selection) {
   StageStatistics row = Summarize(episode(), scored, prior_, config_);
-  for (const std::int64_t i : elites) {
+  for (const std::int64_t i : selection.elites) {
     const double value = scored.graspabilities[static_cast<std::size_t>(i)];
     row.elite_threshold = std::fmax(row.elite_threshold, value);
   }
@@ -202,38 +211,37 @@ void EpisodeLoop::Record(const ScoredStage& scored, const std::vector<std::int64
   WriteFileAtomic(folder_.Episode(episode()) / "scores.csv", ScoresCsv(scored));
   WriteFileAtomic(folder_.Episode(episode()) / "losses.csv", LossesCsv(losses_));
   WriteFileAtomic(folder_.Statistics(), StatisticsToCsv(rows_));
-  WriteElites(folder_.Episode(episode()) / "elites.h5", scored, elites, episode(), config_);
+  WriteElites(folder_.Episode(episode()) / "elites.h5", scored, selection.elites, episode(),
+              config_);
   WriteSampleSheet(folder_.Episode(episode()) / "samples.png", scored, config_);
   log_->Add(UpdatesSoFar(), StageScalars(row, rows_));
   LogStage(row, rows_);
   WarnIfCollapsed(row, rows_);
 }
 
-torch::Tensor EpisodeLoop::TrainingSet(const ScoredStage& scored,
-                                       const std::vector<std::int64_t>& elites) const {
-  const torch::Tensor kept =
-      scored.values.index_select(0, torch::tensor(elites, torch::kLong)).to(torch::kHalf);
-  const auto replayed = std::min<std::int64_t>(
-      prior_.size(0), std::llround(config_.cem.prior_fraction * double(elites.size())));
-  if (replayed == 0) return kept;
-  const std::vector<double> every(static_cast<std::size_t>(prior_.size(0)), 0.0);
-  const std::uint64_t seed = RngStream(config_.seed, "replay").NextU64();
-  const std::vector<std::int64_t> drawn =
-      RandomKeep(every, replayed, seed, static_cast<std::uint64_t>(episode()));
-  return torch::cat({kept, prior_.index_select(0, torch::tensor(drawn, torch::kLong))});
-}
-
-void EpisodeLoop::BeginEpisode(int episode) {
+void EpisodeLoop::BeginEpisode(int episode, const ScoredStage& scored, const Selection& selection) {
   losses_.clear();
-  trainer_.BeginEpisode(episode, config_.cem.iterations, config_.cem.restart);
+  if (config_.cem.mode == "latent") {
+    RngStream rng(config_.seed, "mixture", static_cast<std::uint64_t>(episode));
+    const torch::Tensor z = trainer_.Latents(SampleSeed(), 0, config_.cem.samples)
+                                .index_select(0, torch::tensor(selection.elites, torch::kLong));
+    trainer_.BeginFixedEpisode(episode, FitToElites(trainer_.latent(), z, config_.cem.smoothing,
+                                                    config_.cem.least_deviation, &rng));
+  } else {
+    shapes_ = selector_.TrainingSet(scored, selection);
+    trainer_.BeginEpisode(episode, config_.cem.iterations, config_.cem.restart);
+  }
   Save(folder_.Latest());
 }
 
+std::uint64_t EpisodeLoop::SampleSeed() const {
+  return RngStream(config_.seed, "stage", static_cast<std::uint64_t>(episode())).NextU64();
+}
+
 std::int64_t EpisodeLoop::UpdatesSoFar() const {
-  const std::int64_t before =
-      episode() == 0 ? 0
-                     : config_.cem.prior_iterations + (episode() - 1LL) * config_.cem.iterations;
-  return before + trainer_.step();
+  const std::int64_t first = config_.start.empty() ? config_.cem.prior_iterations : 0;
+  const std::int64_t later = config_.cem.mode == "latent" ? 0 : config_.cem.iterations;
+  return (episode() == 0 ? 0 : first + (episode() - 1LL) * later) + trainer_.step();
 }
 
 void EpisodeLoop::LogScalars(const LossRow& row, double updates_per_second) {

@@ -8,12 +8,16 @@ void Bind(OptionTable* table, GanOptions* options) {
              "discriminator updates for each generator update");
   table->Add("gan.learning_rate_g", &options->learning_rate_g, 0, 1, "Adam's rate, generator");
   table->Add("gan.learning_rate_d", &options->learning_rate_d, 0, 1, "Adam's rate, discriminator");
+  table->Add("gan.later_rate", &options->later_rate, 0, 1,
+             "learning rates after episode 0, relative to those of episode 0");
   table->Add("gan.beta1", &options->beta1, 0, 0.999999, "Adam's decay of the first moment");
   table->Add("gan.beta2", &options->beta2, 0, 0.999999, "Adam's decay of the second moment");
   table->Add("gan.lr_decay_fraction", &options->lr_decay_fraction, 0, 1,
              "last share of an episode in which the learning rates fall to 0; 0 = never");
   table->Add("gan.symmetries", &options->symmetries, {"none", "around_z", "around_z_and_up"},
              "show each real shape under a random symmetry of the cube");
+  table->Add("gan.augment", &options->augment, {"none", "flips", "shifts", "shifts_and_flips"},
+             "show the discriminator every shape, real or generated, shifted or mirrored");
   table->Add("gan.ema", &options->ema, 0, 0.999999,
              "decay per step of the averaged generator; 0 = 1 - 4 / iterations, in [0.9, 0.999]");
 }

@@ -12,10 +12,14 @@ struct GanOptions {
   int discriminator_steps = 1;
   double learning_rate_g = 4e-4;
   double learning_rate_d = 4e-4;
+  double later_rate = 1.0;  // learning rates after episode 0, relative to these
   double beta1 = 0.0;
   double beta2 = 0.9;
   double lr_decay_fraction =
       0.25;  // last share of an episode in which the rate falls to 0; 0 = none
+  // The same random shift or mirror for all shapes of a batch that the discriminator sees, real and
+  // generated, so that it cannot learn the set by heart (DiffAugment, Zhao et al., NeurIPS 2020).
+  std::string augment = "none";
   std::string symmetries = "none";  // under which the real shapes are shown (symmetries.h)
   double ema = 0.0;  // decay of the averaged generator; 0 = 1 - 4 / iterations, in [0.9, 0.999]
 };

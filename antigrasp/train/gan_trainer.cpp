@@ -9,8 +9,9 @@
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/random_tensor.h"
 #include "antigrasp/train/adam.h"
+#include "antigrasp/train/augment.h"
+#include "antigrasp/train/network_tensors.h"
 #include "antigrasp/train/symmetries.h"
-#include "antigrasp/train/tensor_archive.h"
 
 namespace antigrasp {
 namespace {
@@ -21,12 +22,12 @@ constexpr std::int64_t kSampleBlock = 32;
 constexpr std::int64_t kStatisticsBlocks =
     32;  // 1,024 samples: error of a channel's mean 3 % of sd
 
-torch::Tensor LatentBlock(std::uint64_t seed, std::string_view domain, std::int64_t block,
-                          std::int64_t latent) {
+torch::Tensor LatentBlock(const LatentMixture& mixture, std::uint64_t seed, std::string_view domain,
+                          std::int64_t block) {
   std::vector<torch::Tensor> rows;
   for (std::int64_t i = 0; i < kSampleBlock; ++i) {
     RngStream rng(seed, domain, static_cast<std::uint64_t>(block * kSampleBlock + i));
-    rows.push_back(NormalTensor({latent}, 1.0, &rng));
+    rows.push_back(DrawLatent(mixture, &rng));
   }
   return torch::stack(rows);
 }
@@ -37,24 +38,6 @@ torch::Tensor DiscriminatorLoss(const torch::Tensor& real_score, const torch::Te
 }
 torch::Tensor GeneratorLoss(const torch::Tensor& fake_score) { return -fake_score.mean(); }
 
-void AppendModule(const std::string& prefix, const torch::nn::Module& module, NamedTensors* out) {
-  for (const auto& tensors : {module.named_parameters(), module.named_buffers()}) {
-    for (const auto& item : tensors) {
-      std::string name = prefix + item.key();
-      std::replace(name.begin(), name.end(), '.', '/');
-      out->emplace_back(name, item.value());
-    }
-  }
-}
-
-void AppendAdam(const std::string& prefix, const Adam& adam, NamedTensors* out) {
-  for (std::size_t i = 0; i < adam.parameters().size(); ++i) {
-    out->emplace_back(prefix + "first/" + std::to_string(i), adam.first_moments()[i]);
-    out->emplace_back(prefix + "second/" + std::to_string(i), adam.second_moments()[i]);
-  }
-  out->emplace_back(prefix + "steps", adam.steps());
-}
-
 }  // namespace
 
 struct GanTrainer::Impl {
@@ -64,9 +47,9 @@ struct GanTrainer::Impl {
   void RestartNetworks(int episode_index);
   torch::Tensor RealBatch(const torch::Tensor& shapes, RngStream* rng) const;
   torch::Tensor FakeBatch(RngStream* rng);
-  void UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake,
+  void UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake, RngStream* rng,
                            StepReport* report);
-  void UpdateGenerator(const torch::Tensor& fake, StepReport* report);
+  void UpdateGenerator(const torch::Tensor& fake, RngStream* rng, StepReport* report);
   void UpdateAverage();
   void RefreshStatistics();
   double Finite(const char* what, const torch::Tensor& value) const;
@@ -74,6 +57,10 @@ struct GanTrainer::Impl {
   double LearningRateFactor() const;
   double AverageDecay() const;
   NamedTensors State(const torch::Tensor& progress) const;
+  torch::Tensor Progress() const;  // [3] int64: episode, iterations, step
+  void SetProgress(const torch::Tensor& progress);
+  NamedTensors Networks() const;  // without what only goes on training needs
+  void CopyParameters(const Generator& from, const Generator& to);
 
   ModelOptions model;
   GanOptions options;
@@ -82,6 +69,7 @@ struct GanTrainer::Impl {
   Generator generator, average;
   Discriminator discriminator;
   Adam adam_generator, adam_discriminator;
+  LatentMixture latent;
   int episode = 0;
   std::int64_t iterations = 0, step = 0;
   bool statistics_stale = true;  // the average's batch statistics do not belong to its weights
@@ -99,7 +87,8 @@ GanTrainer::Impl::Impl(const ModelOptions& model_options, const GanOptions& gan_
       adam_generator((generator->to(device), generator->parameters()), options.beta1,
                      options.beta2),
       adam_discriminator((discriminator->to(device), discriminator->parameters()), options.beta1,
-                         options.beta2) {
+                         options.beta2),
+      latent(StandardNormal(model.components, model.latent)) {
   average->to(device);
   RestartNetworks(0);
 }
@@ -124,9 +113,9 @@ torch::Tensor GanTrainer::Impl::FakeBatch(RngStream* rng) {
 }
 
 void GanTrainer::Impl::UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake,
-                                           StepReport* report) {
-  const torch::Tensor score =
-      discriminator->ForwardFolded(torch::cat({real, fake.detach()}));  // [2 batch / pack]
+                                           RngStream* rng, StepReport* report) {
+  const torch::Tensor score = discriminator->ForwardFolded(  // [2 batch / pack]
+      Augment(torch::cat({real, fake.detach()}), options.augment, rng));
   const auto halves = score.chunk(2);
   const torch::Tensor loss = DiscriminatorLoss(halves[0], halves[1]);
   report->loss_discriminator = Finite("loss", loss);
@@ -136,10 +125,12 @@ void GanTrainer::Impl::UpdateDiscriminator(const torch::Tensor& real, const torc
   adam_discriminator.Step(gradients, report->rate_discriminator);
 }
 
-void GanTrainer::Impl::UpdateGenerator(const torch::Tensor& fake, StepReport* report) {
+void GanTrainer::Impl::UpdateGenerator(const torch::Tensor& fake, RngStream* rng,
+                                       StepReport* report) {
   // In two legs, so that the discriminator's own gradients are not computed.
   const torch::Tensor input = fake.detach().requires_grad_();
-  const torch::Tensor loss = GeneratorLoss(discriminator->ForwardFolded(input));
+  const torch::Tensor loss =
+      GeneratorLoss(discriminator->ForwardFolded(Augment(input, options.augment, rng)));
   report->loss_generator = Finite("loss", loss);
   const auto grad_input = torch::autograd::grad({loss}, {input});
   const auto gradients = torch::autograd::grad({fake}, adam_generator.parameters(), grad_input);
@@ -167,10 +158,11 @@ double GanTrainer::Impl::FiniteNorm(const std::vector<torch::Tensor>& gradients)
 }
 
 double GanTrainer::Impl::LearningRateFactor() const {
+  const double start = episode > 0 ? options.later_rate : 1.0;
   const double total = static_cast<double>(iterations);
   const double decay_steps = total * options.lr_decay_fraction;
   const double left = total - static_cast<double>(step);
-  return left < decay_steps ? left / decay_steps : 1.0;
+  return left < decay_steps ? start * left / decay_steps : start;
 }
 
 double GanTrainer::Impl::AverageDecay() const {
@@ -200,10 +192,11 @@ void GanTrainer::Impl::RefreshStatistics() {
   if (!model.batch_norm) {
     return;
   }
+  const LatentMixture standard = StandardNormal(model.components, model.latent);
   average->RestartStatistics();
   average->train();
   for (std::int64_t block = 0; block < kStatisticsBlocks; ++block) {
-    average->ForwardFolded(LatentBlock(seed, "statistics", block, model.latent).to(device));
+    average->ForwardFolded(LatentBlock(standard, seed, "statistics", block).to(device));
   }
 }
 
@@ -214,8 +207,38 @@ NamedTensors GanTrainer::Impl::State(const torch::Tensor& progress) const {
   AppendModule("average/", *average, &state);
   AppendAdam("adam_generator/", adam_generator, &state);
   AppendAdam("adam_discriminator/", adam_discriminator, &state);
+  AppendMixture("latent/", latent, &state);
   state.emplace_back("progress", progress);
   return state;
+}
+
+torch::Tensor GanTrainer::Impl::Progress() const {
+  return torch::tensor(std::vector<std::int64_t>{episode, iterations, step});
+}
+
+void GanTrainer::Impl::SetProgress(const torch::Tensor& progress) {
+  episode = static_cast<int>(progress[0].item<std::int64_t>());
+  iterations = progress[1].item<std::int64_t>();
+  step = progress[2].item<std::int64_t>();
+  statistics_stale = true;
+}
+
+NamedTensors GanTrainer::Impl::Networks() const {
+  NamedTensors networks;
+  AppendModule("discriminator/", *discriminator, &networks);
+  AppendModule("average/", *average, &networks);
+  AppendMixture("latent/", latent, &networks);
+  return networks;
+}
+
+void GanTrainer::Impl::CopyParameters(const Generator& from, const Generator& to) {
+  torch::NoGradGuard no_grad;
+  auto target = to->parameters();
+  const auto source = from->parameters();
+  for (std::size_t i = 0; i < target.size(); ++i) {
+    target[i].copy_(source[i]);
+  }
+  statistics_stale = true;
 }
 
 GanTrainer::GanTrainer(const ModelOptions& model, const GanOptions& options, std::uint64_t seed,
@@ -237,13 +260,14 @@ void GanTrainer::BeginEpisode(int episode, std::int64_t iterations, bool restart
   t.episode = episode;
   t.iterations = iterations;
   t.step = 0;
-  torch::NoGradGuard no_grad;
-  auto target = t.average->parameters();
-  const auto source = t.generator->parameters();
-  for (std::size_t i = 0; i < target.size(); ++i) {
-    target[i].copy_(source[i]);
-  }
-  t.statistics_stale = true;
+  t.latent = StandardNormal(t.model.components, t.model.latent);
+  t.CopyParameters(t.generator, t.average);
+}
+
+void GanTrainer::BeginFixedEpisode(int episode, const LatentMixture& latent) {
+  impl_->episode = episode;
+  impl_->iterations = impl_->step = 0;
+  impl_->latent = latent;
 }
 
 StepReport GanTrainer::Step(const torch::Tensor& shapes) {
@@ -263,9 +287,9 @@ StepReport GanTrainer::Step(const torch::Tensor& shapes) {
     torch::AutoGradMode gradients(k == t.options.discriminator_steps);
     fake = t.FakeBatch(&rng);
     torch::AutoGradMode discriminator_gradients(true);
-    t.UpdateDiscriminator(real, fake, &report);
+    t.UpdateDiscriminator(real, fake, &rng, &report);
   }
-  t.UpdateGenerator(fake, &report);
+  t.UpdateGenerator(fake, &rng, &report);
   report.largest_sigma = t.discriminator->LargestSigma();
   t.UpdateAverage();
   ++t.step;
@@ -276,6 +300,18 @@ std::int64_t GanTrainer::step() const { return impl_->step; }
 std::int64_t GanTrainer::iterations() const { return impl_->iterations; }
 int GanTrainer::episode() const { return impl_->episode; }
 
+torch::Tensor GanTrainer::Latents(std::uint64_t seed, std::int64_t first,
+                                  std::int64_t count) const {
+  AG_CHECK(first >= 0 && count >= 0, "samples are numbered from 0");
+  std::vector<torch::Tensor> rows = {torch::empty({0, impl_->model.latent})};
+  for (std::int64_t block = first / kSampleBlock; block * kSampleBlock < first + count; ++block) {
+    const std::int64_t begin = std::max<std::int64_t>(first - block * kSampleBlock, 0);
+    const std::int64_t end = std::min(first + count - block * kSampleBlock, kSampleBlock);
+    rows.push_back(LatentBlock(impl_->latent, seed, "latent", block).slice(0, begin, end));
+  }
+  return torch::cat(rows);
+}
+
 torch::Tensor GanTrainer::Sample(std::uint64_t seed, std::int64_t first, std::int64_t count) {
   AG_CHECK(first >= 0 && count >= 0, "samples are numbered from 0");
   torch::NoGradGuard no_grad;
@@ -284,7 +320,7 @@ torch::Tensor GanTrainer::Sample(std::uint64_t seed, std::int64_t first, std::in
   t.average->eval();
   std::vector<torch::Tensor> parts = {torch::empty({0, 1, 32, 32, 32})};
   for (std::int64_t block = first / kSampleBlock; block * kSampleBlock < first + count; ++block) {
-    const torch::Tensor z = LatentBlock(seed, "latent", block, t.model.latent);
+    const torch::Tensor z = LatentBlock(t.latent, seed, "latent", block);
     const std::int64_t begin = std::max<std::int64_t>(first - block * kSampleBlock, 0);
     const std::int64_t end = std::min(first + count - block * kSampleBlock, kSampleBlock);
     parts.push_back(t.average->forward(z.to(t.device)).slice(0, begin, end).cpu());
@@ -292,18 +328,38 @@ torch::Tensor GanTrainer::Sample(std::uint64_t seed, std::int64_t first, std::in
   return torch::cat(parts);
 }
 
+const LatentMixture& GanTrainer::latent() const { return impl_->latent; }
+
+void GanTrainer::SaveNetworks(torch::serialize::OutputArchive* archive) const {
+  NamedTensors networks = impl_->Networks();
+  for (auto& [name, tensor] : networks) {
+    if (tensor.is_floating_point()) tensor = tensor.to(torch::kHalf);
+  }
+  networks.emplace_back("progress", impl_->Progress());
+  WriteTensors(networks, archive);
+}
+
+void GanTrainer::LoadNetworks(torch::serialize::InputArchive* archive) {
+  NamedTensors networks = impl_->Networks();
+  torch::Tensor ignored;
+  if (!archive->try_read("latent/weights", ignored, /*is_buffer=*/true)) {
+    networks.resize(networks.size() - 3);  // older than latent-space CEM: z is N(0, I)
+  }
+  const torch::Tensor progress = torch::zeros({3}, torch::kLong);
+  networks.emplace_back("progress", progress);
+  ReadTensors(networks, "checkpoint", archive);
+  impl_->SetProgress(progress);
+  impl_->CopyParameters(impl_->average, impl_->generator);
+}
+
 void GanTrainer::Save(torch::serialize::OutputArchive* archive) const {
-  const std::vector<std::int64_t> progress = {impl_->episode, impl_->iterations, impl_->step};
-  WriteTensors(impl_->State(torch::tensor(progress)), archive);
+  WriteTensors(impl_->State(impl_->Progress()), archive);
 }
 
 void GanTrainer::Load(torch::serialize::InputArchive* archive) {
   const torch::Tensor progress = torch::zeros({3}, torch::kLong);
   ReadTensors(impl_->State(progress), "checkpoint", archive);
-  impl_->episode = static_cast<int>(progress[0].item<std::int64_t>());
-  impl_->iterations = progress[1].item<std::int64_t>();
-  impl_->step = progress[2].item<std::int64_t>();
-  impl_->statistics_stale = true;
+  impl_->SetProgress(progress);
 }
 
 }  // namespace antigrasp

@@ -8,6 +8,7 @@
 #include "antigrasp/models/discriminator.h"
 #include "antigrasp/models/generator.h"
 #include "antigrasp/train/gan_options.h"
+#include "antigrasp/train/latent_mixture.h"
 
 namespace antigrasp {
 
@@ -35,6 +36,10 @@ class GanTrainer {
   // or from fresh weights when `restart_networks`.
   void BeginEpisode(int episode, std::int64_t iterations, bool restart_networks);
 
+  // Begins an episode without updates: the averaged generator stays as it is, and z comes from
+  // `latent` (latent-space CEM, or networks trained elsewhere).
+  void BeginFixedEpisode(int episode, const LatentMixture& latent);
+
   // One update of D (discriminator_steps of them) and of G. `shapes`: [N, 1, 32, 32, 32] float16 or
   // float32 network values on the CPU. A loss or gradient that is not finite: RuntimeFailure before
   // it reaches the weights.
@@ -48,12 +53,22 @@ class GanTrainer {
   // values [count, 1, 32, 32, 32] float32 on the CPU. Sample i does not depend on count or batch.
   torch::Tensor Sample(std::uint64_t seed, std::int64_t first, std::int64_t count);
 
+  // The z of these samples, [count, latent]; the mixture they are drawn from.
+  torch::Tensor Latents(std::uint64_t seed, std::int64_t first, std::int64_t count) const;
+  const LatentMixture& latent() const;
+
   // All tensors by name, flat: generator/..., discriminator/..., average/... (parameters and
-  // buffers), adam_generator/first/<i>, second/<i>, steps, adam_discriminator/..., and progress
-  // (int64: episode, iterations, step). Going on after Load equals going on without, bit for bit.
-  // Load throws InputError and changes nothing when a tensor is missing or does not fit.
+  // buffers), adam_generator/first/<i>, second/<i>, steps, adam_discriminator/..., latent/... and
+  // progress (int64: episode, iterations, step). Going on after Load equals going on without, bit
+  // for bit. Load throws InputError and changes nothing when a tensor is missing or does not fit.
   void Save(torch::serialize::OutputArchive* archive) const;
   void Load(torch::serialize::InputArchive* archive);
+
+  // What is enough to sample and to begin an episode: average/..., discriminator/... and
+  // latent/..., float16. Load takes these from either kind of archive; the generator goes on from
+  // the average.
+  void SaveNetworks(torch::serialize::OutputArchive* archive) const;
+  void LoadNetworks(torch::serialize::InputArchive* archive);
 
  private:
   struct Impl;

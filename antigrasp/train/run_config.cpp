@@ -5,11 +5,20 @@
 namespace antigrasp {
 
 void Bind(OptionTable* table, CemOptions* o) {
+  table->Add("cem.mode", &o->mode, {"gan", "latent"},
+             "what an episode adapts to the elites: the networks, or the distribution of z");
   table->Add("cem.episodes", &o->episodes, 0, 1000, "resampling rounds after episode 0");
   table->Add("cem.prior_iterations", &o->prior_iterations, 1, 1e8, "GAN updates in episode 0");
   table->Add("cem.iterations", &o->iterations, 1, 1e8, "GAN updates in every later episode");
   table->Add("cem.samples", &o->samples, 1, 1e6, "objects sampled per episode");
   table->Add("cem.keep", &o->keep, 1, 1e6, "elites kept per episode");
+  table->Add("cem.variant", &o->variant, {"paper", "stratified"},
+             "elites: the least graspable of all, or of every cell of the prior set");
+  table->Add("cem.cells", &o->cells, 1, 1e5, "cells of the stratified variant");
+  table->Add("cem.smoothing", &o->smoothing, 0, 1,
+             "latent mode: weight of the new fit in the next mixture of z");
+  table->Add("cem.least_deviation", &o->least_deviation, 1e-6, 1,
+             "latent mode: smallest standard deviation of z in a component");
   table->Add("cem.select", &o->select, {"graspability", "random"},
              "keep the least graspable, or random ones (the control)");
   table->Add("cem.restart", &o->restart, "fresh networks each episode instead of going on");
@@ -34,6 +43,8 @@ void Bind(OptionTable* table, RunConfig* c) {
   table->Add("run.device", &c->device, {}, "device of the networks: cpu, cuda, cuda:1");
   table->Add("run.stl_count", &c->stl_count, 0, 10000, "least graspable objects exported as STL");
   table->Add("run.stl_size_mm", &c->stl_size_mm, 1, 10000, "their largest extent, mm");
+  table->Add("run.start", &c->start, {},
+             "checkpoint or name of pretrained networks in place of training episode 0");
   table->Add("prior.file", &c->prior_file, {}, "SDF file of the prior set; empty = make one");
   table->Add("prior.kind", &c->prior.kind, {"cylinders", "prisms", "bottles"}, "set to make");
   table->Add("prior.count", &c->prior.count, 1, 1e6, "shapes to make");

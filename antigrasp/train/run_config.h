@@ -13,11 +13,18 @@ namespace antigrasp {
 
 // The cross-entropy loop of V-B and VI-C.
 struct CemOptions {
-  int episodes = 3;              // resampling rounds after episode 0, the GAN of the prior set
-  int prior_iterations = 16000;  // GAN updates in episode 0
-  int iterations = 16000;        // GAN updates in every later episode
-  int samples = 2500;            // objects drawn from the generator per episode
-  int keep = 500;                // elites: the least graspable of them
+  // "gan": an episode retrains the GAN on the elites. "latent": it keeps the generator of episode 0
+  // and fits the mixture that z is drawn from to the elites' z (latent_mixture.h); minutes.
+  std::string mode = "gan";
+  int episodes = 3;               // resampling rounds after episode 0, the GAN of the prior set
+  int prior_iterations = 16000;   // GAN updates in episode 0
+  int iterations = 16000;         // GAN updates in every later episode
+  int samples = 2500;             // objects drawn from the generator per episode
+  int keep = 500;                 // elites: the least graspable of them
+  std::string variant = "paper";  // or "stratified": elites shared out like the prior (selection.h)
+  int cells = 100;                // of the stratified variant
+  double smoothing = 0.7;         // latent mode: weight of the new fit in the next mixture
+  double least_deviation = 0.2;   // latent mode: of every component, so that it goes on exploring
   std::string select = "graspability";  // or "random": the control run
   bool restart = false;                 // fresh networks each episode instead of going on
   double prior_fraction = 0.0;          // prior shapes mixed into the elites, as a share of `keep`
@@ -35,7 +42,8 @@ struct RunConfig {
   int threads = 0;             // of everything but LibTorch; 0 = all; no result depends on it
   int torch_threads = 0;       // of LibTorch; 0 = threads; training repeats at the same number
   std::string device = "cpu";  // cpu, cuda, cuda:1
-  std::string prior_file;      // an SDF file instead of a synthetic set
+  std::string start;  // networks to begin with: checkpoint or name of pretrained ones; no episode 0
+  std::string prior_file;  // an SDF file instead of a synthetic set
   PriorSetOptions prior;
   int stl_count = 10;         // least graspable objects exported at the end
   double stl_size_mm = 60.0;  // their largest extent

@@ -4,9 +4,10 @@
 
 namespace antigrasp {
 
-// How a generated set relates to a reference set of the same size, by the Euclidean distance
-// between network values (shapes as [N, ...] tensors, any shape, any float type). Cost: one N x N x
-// 32^3 matrix product, 2 s for N = 500 on two cores.
+// How a generated set relates to a reference set of the same size (the definitions are those of
+// similarity/set_comparison.h) by the Euclidean distance between network values (shapes as [N, ...]
+// tensors, any shape, any float type). Cost: one N x N x 32^3 matrix product, 2 s for N = 500 on
+// two cores.
 struct SetSimilarity {
   double coverage = 0.0;    // share of the reference that is the nearest of some sample (COV)
   double nna = 0.0;         // leave-one-out 1-nearest-neighbour accuracy; 0.5 = indistinguishable

@@ -33,7 +33,10 @@ void ReadTensors(const NamedTensors& tensors, const std::string& where,
     if (!archive->try_read(name, values[i], /*is_buffer=*/true) || !values[i].defined()) {
       throw InputError("no tensor " + name, where, Describe(target));
     }
-    if (values[i].sizes() != target.sizes() || values[i].scalar_type() != target.scalar_type()) {
+    const bool shorter =  // float16 stands for float32 in files that are to be small
+        values[i].scalar_type() == torch::kHalf && target.scalar_type() == torch::kFloat;
+    if (values[i].sizes() != target.sizes() ||
+        (!shorter && values[i].scalar_type() != target.scalar_type())) {
       throw InputError("tensor " + name + " is " + Describe(values[i]), where,
                        Describe(target) + " (were the model options changed?)");
     }

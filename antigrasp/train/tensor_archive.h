@@ -15,7 +15,8 @@ using NamedTensors = std::vector<std::pair<std::string, torch::Tensor>>;
 void WriteTensors(const NamedTensors& tensors, torch::serialize::OutputArchive* archive);
 
 // Overwrites the values of all tensors, or of none: InputError when a name is missing or its shape,
-// type or numbers (not finite) are wrong. `where` names the file in the message.
+// type (float16 will do for float32) or numbers (not finite) are wrong. `where` names the file in
+// the message.
 void ReadTensors(const NamedTensors& tensors, const std::string& where,
                  torch::serialize::InputArchive* archive);
 

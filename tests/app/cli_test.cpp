@@ -274,9 +274,22 @@ TEST(Cli, ARunCanBeKilledResumedSampledAndExported) {
   ASSERT_EQ(Antigrasp("sample " + dir + "whole --count 9 --seed 7 --out " + dir + "9.h5").code, 0);
   EXPECT_EQ(ReadShapeSet(folder / "5.h5").grids[4].values,
             ReadShapeSet(folder / "9.h5").grids[4].values);
+  // The networks alone, float16: sampled alike but for rounding, and good to begin with.
+  ASSERT_EQ(Antigrasp("generator " + dir + "whole --out " + dir + "small.pt").code, 0);
+  EXPECT_LT(fs::file_size(folder / "small.pt"), fs::file_size(folder / "whole/checkpoint.pt") / 4);
+  ASSERT_EQ(Antigrasp("sample " + dir + "small.pt --count 5 --seed 7 --out " + dir + "s.h5").code,
+            0);
+  const ShapeSet exact = ReadShapeSet(folder / "5.h5"), rounded = ReadShapeSet(folder / "s.h5");
+  for (std::size_t i = 0; i < exact.grids[4].values.size(); ++i) {
+    ASSERT_NEAR(exact.grids[4].values[i], rounded.grids[4].values[i], 5e-3) << i;
+  }
+  const Outcome latent = Antigrasp("train " + kSmoke + " --from " + dir +
+                                   "small.pt --mode latent --threads 2 --out " + dir + "latent");
+  EXPECT_EQ(latent.code, 0) << latent.text;
+  ExpectRefused("sample nobody-made-this --out " + dir + "x.h5", "no such networks");
   EXPECT_EQ(Antigrasp("remesh " + dir + "5.h5 --out " + dir + "meshes").code, 0);
   EXPECT_TRUE(fs::exists(folder / "meshes/remesh.csv"));
-  for (const char* file : {"whole", "5.h5", "whole/episode_1/checkpoint.pt"}) {
+  for (const char* file : {"whole", "5.h5", "whole/episode_1/checkpoint.pt", "small.pt"}) {
     const Outcome info = Antigrasp("info " + dir + file);
     EXPECT_EQ(info.code, 0) << info.text;
     EXPECT_NE(info.text.find("antigrasp"), std::string::npos) << info.text;

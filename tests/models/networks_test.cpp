@@ -142,6 +142,57 @@ void ExpectPlainLayers(int pack) {
 TEST(Discriminator, EqualsThePlainLayers) { ExpectPlainLayers(1); }
 TEST(Discriminator, EqualsThePlainLayersOnPackedShapes) { ExpectPlainLayers(4); }
 
+TEST(Discriminator, AddsTheDeviationOverAPackToEveryShapesFeatures) {
+  ModelOptions options = TinyModel();
+  options.spectral_norm = false;
+  options.pack = 4;
+  options.pack_at = "features";
+  Discriminator discriminator(options);
+  const auto parameters = discriminator->named_parameters();
+  const auto layer = [&](const torch::Tensor& x, int i) {
+    const std::string name = std::to_string(i);
+    return torch::leaky_relu(
+        torch::conv3d(x, parameters["layer" + name + ".weight"], parameters["bias" + name], 2, 1),
+        0.2);
+  };
+  const torch::Tensor grid = Latent(8, 32 * 32 * 32).view({8, 1, 32, 32, 32});
+  torch::Tensor x = layer(layer(layer(grid, 1), 2), 3);
+  std::vector<torch::Tensor> deviations;
+  for (const torch::Tensor& pack : x.split(4)) {
+    deviations.push_back(pack.std(0, /*unbiased=*/false, /*keepdim=*/true).expand_as(pack));
+  }
+  x = layer(torch::cat({x, torch::cat(deviations)}, 1), 4);
+  x = torch::linear(x.flatten(1), parameters["layer5.weight"], parameters["bias5"]).squeeze(1);
+  const torch::Tensor score = discriminator(grid);
+  EXPECT_EQ(score.sizes(), (std::vector<std::int64_t>{8}));
+  EXPECT_LT((score - x).abs().max().item<double>(), 1e-4 * (1 + x.abs().max().item<double>()));
+}
+
+TEST(Discriminator, MayBeWiderThanTheGenerator) {
+  ModelOptions options = TinyModel();
+  options.width_d = 2 * options.width;
+  Discriminator discriminator(options);
+  EXPECT_EQ(discriminator->named_parameters()["layer1.weight"].size(0), 2 * options.width);
+  EXPECT_EQ(discriminator(torch::zeros({3, 1, 32, 32, 32})).size(0), 3);
+}
+
+TEST(ResidualBlocks, BeginAsASmallChangeAndReachEveryParameter) {
+  ModelOptions options = TinyModel();
+  options.block = "residual";
+  Generator generator(options);
+  Discriminator discriminator(options);
+  generator->train();
+  discriminator->train();
+  discriminator(generator(Latent(6, options.latent))).sum().backward();
+  for (const auto& item : generator->named_parameters()) {
+    ASSERT_TRUE(item.value().grad().defined()) << item.key();
+    EXPECT_GT(item.value().grad().abs().max().item<double>(), 0.0) << item.key();
+  }
+  for (const auto& item : discriminator->named_parameters()) {
+    ASSERT_TRUE(item.value().grad().defined()) << item.key();
+  }
+}
+
 TEST(Discriminator, SpectralNormBoundsItsSlope) {
   // Every layer has a stretch of at most 1 per patch; each node is in 2^3 patches of a strided
   // kernel of 4, so a convolution stretches by at most sqrt(8): four of them by 64.

@@ -14,6 +14,7 @@
 #include "antigrasp/mesh/inspect.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/render/image.h"
+#include "antigrasp/train/episode_loop.h"
 #include "antigrasp/train/scalar_log.h"
 #include "tests/support/temp_folder.h"
 
@@ -162,6 +163,78 @@ TEST(CemRun, ReportsAFinishedRunWithoutDoingItAgain) {
   StoppingObserver strict(0);  // any progress at all would throw
   const RunResult again = ResumeRun(folder / "run", &strict);
   EXPECT_EQ(StatisticsToCsv(again.stages), StatisticsToCsv(first.stages));
+}
+
+RunConfig Latent() {
+  RunConfig config = Tiny();
+  config.cem.mode = "latent";
+  config.model.components = 2;
+  return config;
+}
+
+TEST(CemRun, LatentModeMovesTheNoiseAndLeavesTheNetworksAlone) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  StartRun(Latent(), folder / "run", &observer);
+  const RunFolder run{folder / "run"};
+  const RunConfig config = ConfigOfRun(run.root);
+  GanTrainer first = MakeTrainer(config), last = MakeTrainer(config);
+  ReadNetworks(run.EpisodeCheckpoint(0), [&](auto* archive) { first.LoadNetworks(archive); });
+  ReadNetworks(run.EpisodeCheckpoint(2), [&](auto* archive) { last.LoadNetworks(archive); });
+  EXPECT_EQ(first.latent().means.abs().max().item<double>(), 0.0);
+  EXPECT_GT(last.latent().means.abs().max().item<double>(), 0.1);
+  EXPECT_FALSE(torch::equal(first.Sample(1, 0, 4), last.Sample(1, 0, 4)));
+  last.BeginFixedEpisode(0, first.latent());
+  EXPECT_TRUE(torch::equal(first.Sample(1, 0, 4), last.Sample(1, 0, 4)));
+}
+
+TEST(CemRun, LatentModeGivesEqualBytesAfterAnyInterruption) {
+  const TempFolder folder;
+  StoppingObserver never;
+  StartRun(Latent(), folder / "a", &never);
+  for (const int stop : {50, 60, 72}) {  // scoring episode 0, sampling and scoring the next
+    const fs::path run = folder / ("stopped-" + std::to_string(stop));
+    StoppingObserver stopping(stop + 24);
+    EXPECT_THROW(StartRun(Latent(), run, &stopping), Interrupted) << stop;
+    ResumeRun(run, &never);
+    ExpectSameFiles(folder / "a", run);
+  }
+}
+
+TEST(CemRun, BeginsWithGivenNetworksInsteadOfTrainingThem) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  RunConfig config = Tiny();
+  config.cem.episodes = 0;
+  const RunResult prior = StartRun(config, folder / "prior", &observer);
+  config = Tiny();
+  config.start = (folder / "prior").string();
+  const RunResult result = StartRun(config, folder / "run", &observer);
+  ASSERT_EQ(result.stages.size(), 4U);
+  EXPECT_EQ(result.stages[1].graspability.mean, prior.stages[1].graspability.mean);
+
+  config.model.width = 8;
+  try {
+    StartRun(config, folder / "other", &observer);
+    FAIL() << "networks of another width were accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("width = 4"), std::string::npos) << error.what();
+  }
+  config.start = "no-such-networks";
+  EXPECT_THROW(StartRun(config, folder / "other", &observer), InputError);
+  EXPECT_FALSE(fs::exists(folder / "other"));
+}
+
+TEST(CemRun, StratifiedElitesGiveEqualBytesTwice) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  RunConfig config = Tiny();
+  config.cem.variant = "stratified";
+  config.cem.cells = 6;
+  config.gan.later_rate = 0.5;
+  StartRun(config, folder / "a", &observer);
+  StartRun(config, folder / "b", &observer);
+  ExpectSameFiles(folder / "a", folder / "b");
 }
 
 TEST(RunFolder, RemovesARunAndNothingElse) {

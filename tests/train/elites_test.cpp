@@ -21,11 +21,12 @@ TEST(LeastGraspable, NeverKeepsARejectedObject) {
   EXPECT_TRUE(LeastGraspable({kNaN, kNaN}, 3).empty());
 }
 
-TEST(RandomKeep, DrawsDistinctValidObjectsUniformly) {
+TEST(RandomOrder, MakesTheLeastOfThemAUniformDrawOfValidObjects) {
   const std::vector<double> values = {0.1, kNaN, 0.2, 0.3, kNaN, 0.4, 0.5};
   std::vector<int> counts(values.size());
   for (std::uint64_t stage = 0; stage < 3000; ++stage) {
-    const Indices kept = RandomKeep(values, 2, 1, stage);
+    RngStream rng(1, "control", stage);
+    const Indices kept = LeastGraspable(RandomOrder(values, &rng), 2);
     ASSERT_EQ(std::set<std::int64_t>(kept.begin(), kept.end()).size(), 2U);
     for (const std::int64_t i : kept) ++counts[static_cast<std::size_t>(i)];
   }
@@ -33,10 +34,34 @@ TEST(RandomKeep, DrawsDistinctValidObjectsUniformly) {
   for (const std::size_t i : {0, 2, 3, 5, 6}) EXPECT_NEAR(counts[i], 1200, 140) << i;
 }
 
-TEST(RandomKeep, RepeatsForTheSameSeedAndStage) {
-  const std::vector<double> values(50, 0.1);
-  EXPECT_EQ(RandomKeep(values, 10, 4, 2), RandomKeep(values, 10, 4, 2));
-  EXPECT_NE(RandomKeep(values, 10, 4, 2), RandomKeep(values, 10, 5, 2));
+TEST(LeastGraspableByCell, SharesTheElitesOutByWeightAndTakesTheLeastOfEachCell) {
+  const std::vector<double> values = {0.1, 0.2, 0.3, 0.9, 0.8, 0.7};
+  const Indices cell = {0, 0, 0, 1, 1, 1};
+  const SharedElites equal = LeastGraspableByCell(values, cell, {1.0, 1.0}, 4);
+  EXPECT_EQ(equal.elites, (Indices{0, 1, 4, 5}));  // though 0.7 and 0.8 are above 0.3
+  EXPECT_EQ(equal.missing, (Indices{0, 0}));
+  EXPECT_EQ(LeastGraspableByCell(values, cell, {3.0, 1.0}, 4).elites, (Indices{0, 1, 2, 5}));
+}
+
+TEST(LeastGraspableByCell, CountsWhatNoValidObjectFills) {
+  const SharedElites shared =
+      LeastGraspableByCell({0.1, kNaN, kNaN, 0.4}, {0, 1, 1, 0}, {1.0, 1.0, 2.0}, 8);
+  EXPECT_EQ(shared.elites, (Indices{0, 3}));
+  EXPECT_EQ(shared.missing, (Indices{0, 2, 4}));
+}
+
+TEST(LeastGraspableByCell, GivesSharesThatDoNotDivideToTheLargestRemainders) {
+  const std::vector<double> values(12, 0.5);
+  const Indices cell = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2};
+  // 5 x (0.2, 0.3, 0.5) = (1, 1.5, 2.5): one each of the remainder would be six.
+  const SharedElites shared = LeastGraspableByCell(values, cell, {2.0, 3.0, 5.0}, 5);
+  EXPECT_EQ(shared.elites, (Indices{0, 4, 5, 8, 9}));
+}
+
+TEST(LeastGraspableByCell, WithOneCellIsTheRuleOfThePaper) {
+  const std::vector<double> values = {0.3, kNaN, 0.1, 0.2, 0.5};
+  EXPECT_EQ(LeastGraspableByCell(values, {0, 0, 0, 0, 0}, {7.0}, 3).elites,
+            LeastGraspable(values, 3));
 }
 
 }  // namespace

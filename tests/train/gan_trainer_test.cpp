@@ -235,6 +235,29 @@ TEST(GanTrainer, APackedDiscriminatorTrainsAndItsFirstLossesAreTheHinge) {
   EXPECT_TRUE(trainer.Sample(1, 0, 4).isfinite().all().item<bool>());
 }
 
+TEST(GanTrainer, LaterEpisodesTrainAtTheirOwnRate) {
+  GanOptions options = TinyGan();
+  options.later_rate = 0.25;
+  options.lr_decay_fraction = 0.0;
+  GanTrainer trainer(TinyModel(), options, 5, torch::kCPU);
+  trainer.BeginEpisode(0, 2, true);
+  EXPECT_DOUBLE_EQ(trainer.Step(Spheres(4)).rate_generator, options.learning_rate_g);
+  trainer.BeginEpisode(1, 2, false);
+  EXPECT_DOUBLE_EQ(trainer.Step(Spheres(4)).rate_generator, 0.25 * options.learning_rate_g);
+}
+
+TEST(GanTrainer, EveryKindOfAugmentationTrains) {
+  for (const char* kind : {"flips", "shifts", "shifts_and_flips"}) {
+    GanOptions options = TinyGan();
+    options.augment = kind;
+    GanTrainer trainer(TinyModel(), options, 5, torch::kCPU);
+    trainer.BeginEpisode(0, 2, true);
+    trainer.Step(Spheres(4));
+    trainer.Step(Spheres(4));
+    EXPECT_TRUE(trainer.Sample(1, 0, 4).isfinite().all().item<bool>()) << kind;
+  }
+}
+
 TEST(GanTrainer, NotFiniteLossNamesTheStep) {
   GanTrainer trainer(TinyModel(), TinyGan(), 5, torch::kCPU);
   trainer.BeginEpisode(0, 3, true);

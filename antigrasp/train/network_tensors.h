@@ -1,0 +1,18 @@
+#pragma once
+
+#include <torch/nn/module.h>
+
+#include <string>
+
+#include "antigrasp/train/adam.h"
+#include "antigrasp/train/latent_mixture.h"
+#include "antigrasp/train/tensor_archive.h"
+
+namespace antigrasp {
+
+// The tensors of each part of a trainer by name, for checkpoints. They share storage with the part.
+void AppendModule(const std::string& prefix, const torch::nn::Module& module, NamedTensors* out);
+void AppendAdam(const std::string& prefix, const Adam& adam, NamedTensors* out);
+void AppendMixture(const std::string& prefix, const LatentMixture& mixture, NamedTensors* out);
+
+}  // namespace antigrasp

@@ -1,0 +1,99 @@
+#include "antigrasp/train/selection.h"
+
+#include <torch/torch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "antigrasp/core/rng.h"
+#include "antigrasp/train/elites.h"
+
+namespace antigrasp {
+namespace {
+
+// `count` of the given indices drawn without replacement, ascending; all of them if there are
+// fewer.
+std::vector<std::int64_t> Draw(const std::vector<std::int64_t>& from, std::int64_t count,
+                               RngStream rng) {
+  const std::vector<double> order = RandomOrder(std::vector<double>(from.size()), &rng);
+  std::vector<std::int64_t> drawn;
+  for (const std::int64_t i : LeastGraspable(order, count)) {
+    drawn.push_back(from[static_cast<std::size_t>(i)]);
+  }
+  return drawn;
+}
+
+std::vector<std::int64_t> Every(std::int64_t count) {
+  std::vector<std::int64_t> indices;
+  for (std::int64_t i = 0; i < count; ++i) indices.push_back(i);
+  return indices;
+}
+
+torch::Tensor Rows(const torch::Tensor& values, const std::vector<std::int64_t>& indices) {
+  return values.index_select(0, torch::tensor(indices, torch::kLong));
+}
+
+}  // namespace
+
+EliteSelector::EliteSelector(const RunConfig& config, torch::Tensor prior)
+    : config_(config), prior_(std::move(prior)) {
+  if (config_.cem.variant != "stratified") return;
+  const std::vector<std::int64_t> chosen =
+      Draw(Every(prior_.size(0)), config_.cem.cells, RngStream(config_.seed, "cells"));
+  centres_ = Rows(prior_, chosen).flatten(1).to(torch::kFloat);
+  residents_.resize(chosen.size());
+  const std::vector<std::int64_t> cells = CellsOf(prior_);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    residents_[static_cast<std::size_t>(cells[i])].push_back(static_cast<std::int64_t>(i));
+  }
+}
+
+std::vector<std::int64_t> EliteSelector::CellsOf(const torch::Tensor& values) const {
+  const torch::NoGradGuard no_grad;
+  const torch::Tensor squares = centres_.square().sum(1);
+  std::vector<std::int64_t> cells;
+  for (const torch::Tensor& chunk : values.split(256)) {
+    const torch::Tensor rows = chunk.flatten(1).to(torch::kFloat);
+    const torch::Tensor nearest = (squares - 2.0 * torch::mm(rows, centres_.t())).argmin(1);
+    cells.insert(cells.end(), nearest.data_ptr<std::int64_t>(),
+                 nearest.data_ptr<std::int64_t>() + nearest.numel());
+  }
+  return cells;
+}
+
+Selection EliteSelector::Select(const ScoredStage& scored, int episode) const {
+  const CemOptions& cem = config_.cem;
+  const auto stage = static_cast<std::uint64_t>(episode);
+  RngStream chance(config_.seed, "control", stage);
+  const std::vector<double> order =
+      cem.select == "random" ? RandomOrder(scored.graspabilities, &chance) : scored.graspabilities;
+  Selection selection;
+  if (cem.variant == "stratified") {
+    std::vector<double> weight;
+    for (const auto& residents : residents_) weight.push_back(double(residents.size()));
+    SharedElites shared = LeastGraspableByCell(order, CellsOf(scored.values), weight, cem.keep);
+    selection.elites = std::move(shared.elites);
+    for (std::size_t c = 0; c < residents_.size(); ++c) {
+      const auto stand_ins =
+          Draw(residents_[c], shared.missing[c], RngStream(config_.seed, "stand-in", stage, c));
+      selection.replayed.insert(selection.replayed.end(), stand_ins.begin(), stand_ins.end());
+    }
+  } else {
+    selection.elites = LeastGraspable(order, cem.keep);
+  }
+  const auto mixed_in = std::llround(cem.prior_fraction * double(selection.elites.size()));
+  const auto drawn =
+      Draw(Every(prior_.size(0)), mixed_in, RngStream(config_.seed, "replay", stage));
+  selection.replayed.insert(selection.replayed.end(), drawn.begin(), drawn.end());
+  return selection;
+}
+
+torch::Tensor EliteSelector::TrainingSet(const ScoredStage& scored,
+                                         const Selection& selection) const {
+  const torch::Tensor kept = Rows(scored.values, selection.elites).to(torch::kHalf);
+  if (selection.replayed.empty()) return kept;
+  return torch::cat({kept, Rows(prior_, selection.replayed)});
+}
+
+}  // namespace antigrasp

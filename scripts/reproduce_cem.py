@@ -1,0 +1,95 @@
+"""Ways to choose and use elites, over ten episodes from the same networks. Called by scripts/reproduce."""
+import argparse
+import pathlib
+
+from reproduce_document import DOCUMENT, IMAGES, commit, pyplot, save_figure, write_section
+from reproduce_runs import COMPARED, ratio, rows_of, shown, surfaces, train
+
+EPISODES = 10
+KIND = "cylinders"
+START = "cylinders-prior"
+# Equal evaluations: every episode of every way scores as many samples.
+COMMON = [f"prior.kind={KIND}", f"cem.episodes={EPISODES}", "cem.samples=1000", "cem.keep=200", "cem.iterations=250", "cem.control=false",
+          "cem.prior_scored=500"]
+WAYS = {
+    "paper": ("the least graspable of all (V-B)", []),
+    "stratified": ("the least graspable of every cell of the prior", ["cem.variant=stratified", "cem.cells=40"]),
+    "latent": ("fixed networks, mixture of z fitted to the least graspable", ["cem.mode=latent"]),
+    "control": ("random ones", ["cem.select=random"]),
+}
+COLOURS = {"paper": "#b2182b", "stratified": "#2166ac", "latent": "#1b7837", "control": "0.5"}
+
+
+def table(folders):
+    lines = ["| elites | episode | kappa / prior | kappa / control | rejected | COV, % | 1-NNA | Vendi score | to the nearest prior shape | roughness, degrees |",
+             "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
+    control = rows_of(folders["control"])
+    for way, folder in folders.items():
+        rows = rows_of(folder)
+        for episode in sorted({0, EPISODES // 2, max(rows, default=0)} & set(rows)):
+            row, seen = rows[episode], surfaces(folder, episode, KIND, folder.parent)
+            beside = shown(ratio(row, control[episode])) if way != "control" and episode in control and episode else "-"
+            lines.append(f"| {way} | {episode} | {shown(ratio(row, rows[-1]))} | {beside} "
+                         f"| {100 * (1 - int(row['ok']) / int(row['samples'])):.0f} % | {100 * float(seen['coverage'][0]):.0f} "
+                         f"| {float(seen['nna'][0]):.2f} | {float(seen['vendi'][0]):.0f} | {float(seen['nearest_training'][0]):.3f} "
+                         f"| {float(seen['roughness'][0]):.1f} |")
+    return "\n".join(lines)
+
+
+def curves(path, folders):
+    figure, axes = pyplot().subplots(1, 3, figsize=(10, 3))
+    for way, folder in folders.items():
+        rows = {e: r for e, r in rows_of(folder).items() if e >= 0}
+        prior = rows_of(folder)[-1]
+        episodes = sorted(rows)
+        kappa = [ratio(rows[e], prior) for e in episodes]
+        axes[0].plot(episodes, [k for k, _ in kappa], color=COLOURS[way], label=way)
+        axes[0].fill_between(episodes, [k - h for k, h in kappa], [k + h for k, h in kappa], color=COLOURS[way], alpha=0.2)
+        axes[1].plot(episodes, [100 * float(rows[e]["coverage"]) for e in episodes], color=COLOURS[way])
+        axes[2].plot(episodes, [100 * (1 - int(rows[e]["ok"]) / int(rows[e]["samples"])) for e in episodes], color=COLOURS[way])
+    for ax, title in zip(axes, ("kappa / prior set, 95 %", "COV by network values, %", "rejected, %")):
+        ax.set_title(title, fontsize=9)
+        ax.set_xlabel("episode", fontsize=8)
+        ax.set_ylim(bottom=0)
+        ax.tick_params(labelsize=8)
+        ax.spines[["top", "right"]].set_visible(False)
+    axes[0].legend(fontsize=8, frameon=False)
+    save_figure(figure, path)
+
+
+def document(folders):
+    folders = {way: folder for way, folder in folders.items() if max(rows_of(folder), default=-1) >= 0}
+    curves(IMAGES / "cem_variants.png", folders)
+    ways = "\n".join(f"- **{way}**: {WAYS[way][0]}" for way in folders)
+    write_section("cem", f"""
+## Ways to choose elites, over ten episodes
+
+`scripts/reproduce cem`, written at commit {commit()}. Cylinders, all from the pretrained networks `{START}`; 1,000 samples and 200 elites in every
+episode, 250 updates where networks are retrained. Surfaces: {COMPARED} samples against {COMPARED} prior shapes held out.
+
+{ways}
+
+{table(folders)}
+
+![Kappa, coverage and rejection over ten episodes](images/cem_variants.png)
+""")
+    print(f"wrote {DOCUMENT}")
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="scripts/reproduce cem")
+    parser.add_argument("--only", choices=list(WAYS), help="one way; several calls may run side by side")
+    parser.add_argument("--report", action="store_true", help="train nothing; write what there is into the document")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("runs/cem"), help="folder of the runs")
+    arguments = parser.parse_args()
+    folders = {way: arguments.out / way for way in WAYS}
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    for way, (label, settings) in WAYS.items():
+        if not arguments.report and arguments.only in (None, way):
+            train(f"{way}: {label}", folders[way], COMMON + settings, extra=["--from", START])
+    if arguments.report or not arguments.only:
+        document(folders)
+
+
+if __name__ == "__main__":
+    main()

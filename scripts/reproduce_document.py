@@ -1,0 +1,48 @@
+"""What the scripts behind scripts/reproduce share: the binary, the document and its sections."""
+import pathlib
+import re
+import subprocess
+import sys
+
+BINARY = "build/release/bin/antigrasp"
+DOCUMENT = pathlib.Path("docs/reproduction.md")
+IMAGES = pathlib.Path("docs/images")
+SETS = ("cylinders", "prisms", "bottles")
+
+
+def call(*arguments):
+    """Runs the binary in silence; ends the script with its error when it fails."""
+    done = subprocess.run([BINARY, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    if done.returncode:
+        sys.exit(f"antigrasp {' '.join(map(str, arguments))}: exit {done.returncode}\n{done.stderr[-2000:]}")
+
+
+def commit():
+    return subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
+
+
+def pyplot():
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    return plt
+
+
+def save_figure(figure, path):
+    figure.tight_layout()
+    IMAGES.mkdir(exist_ok=True)
+    figure.savefig(path, dpi=110, metadata={"Software": None})
+
+
+def write_section(name, text):
+    """Replaces what stands between the section's marks in the document, or adds it."""
+    begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
+    old = DOCUMENT.read_text() if DOCUMENT.exists() else "# Reproduction\n"
+    section = f"{begin}\n{text.strip()}\n{end}\n"
+    pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end) + "\n", re.S)
+    new = pattern.sub(lambda _: section, old) if begin in old else old.rstrip() + "\n\n" + section
+    temporary = DOCUMENT.with_suffix(".md.part")
+    temporary.write_text(new)
+    temporary.replace(DOCUMENT)

@@ -1,0 +1,151 @@
+"""Sections VI-C and VI-D with the binary antigrasp: runs, tables, figures. Called by scripts/reproduce."""
+import argparse
+import csv
+import pathlib
+
+import numpy as np
+
+from reproduce_document import DOCUMENT, IMAGES, call, commit, pyplot, save_figure, write_section
+from reproduce_runs import COMPARED, SAMPLE_SEED, held_out, ratio, rows_of, shown, surfaces, train
+
+
+class Run:
+    """A CEM + GAN run of the paper: the set, its resampling iterations and the reduction it reports, %."""
+
+    def __init__(self, name, kind, episodes, paper, settings=()):
+        self.name, self.kind, self.episodes, self.paper = name, kind, episodes, paper
+        self.settings = [f"prior.kind={kind}", f"cem.episodes={episodes}", *settings]
+
+
+RUNS = [Run("cylinders", "cylinders", 3, 22), Run("prisms", "prisms", 4, 36), Run("bottles", "bottles", 5, 17),
+        Run("cylinders-no-spectral-norm", "cylinders", 5, 83, ["model.spectral_norm=false"])]
+
+
+def rejected(row):
+    reasons = [(int(row[r]), r.replace("_", " ")) for r in ("touches_border", "disjoint", "self_intersecting", "empty",
+                                                           "gaps", "non_manifold", "non_orientable", "non_finite")]
+    total = int(row["samples"]) - int(row["ok"])
+    text = ", ".join(f"{count} {reason}" for count, reason in reasons if count)
+    return f"{100 * total / int(row['samples']):.1f} %" + (f" ({text})" if text else "")
+
+
+def stage_table(run, folder, out):
+    rows, control = rows_of(folder), rows_of(folder / "control")
+    lines = ["| stage | rejected | kappa / prior | kappa / episode 0 | kappa / control | COV, % | 1-NNA | Vendi score | roughness, degrees |",
+             "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
+    stages = [("", folder, rows, e) for e in sorted(rows) if e >= 0]
+    if control and run.episodes in control:
+        stages.append(("control, ", folder / "control", control, run.episodes))
+    reference = None
+    for label, where, table, episode in stages:
+        row, measured = table[episode], surfaces(where, episode, run.kind, out)
+        reference = measured
+        to_control = shown(ratio(row, control[episode])) if not label and episode > 0 and episode in control else "-"
+        lines.append(f"| {label}episode {episode} | {rejected(row)} | {shown(ratio(row, rows[-1]))} | {shown(ratio(row, rows[0]))} "
+                     f"| {to_control} | {100 * float(measured['coverage'][0]):.0f} | {float(measured['nna'][0]):.2f} "
+                     f"| {float(measured['vendi'][0]):.0f} | {float(measured['roughness'][0]):.1f} |")
+    if reference:
+        lines.insert(2, f"| prior set | {rejected(rows[-1])} | 1 | - | - | - | - | {float(reference['vendi'][1]):.0f} "
+                        f"| {float(reference['roughness'][1]):.1f} |")
+    return "\n".join(lines)
+
+
+def scores(file):
+    return np.array([float(r["graspability"]) for r in csv.DictReader(open(file)) if r["graspability"]])
+
+
+def histograms(path, run, folder):
+    """Figure 4: graspability of every stage by the mean of episode 0, one axis."""
+    episodes = sorted(e for e in rows_of(folder) if e >= 0)
+    figure, axes = pyplot().subplots(1, len(episodes) + 1, figsize=(2.1 * (len(episodes) + 1), 2.2), sharex=True, sharey=True)
+    unit = scores(folder / "episode_0/scores.csv").mean()
+    files = [("prior set", folder / "prior_scores.csv")]
+    files += [(f"episode {e}", folder / f"episode_{e}/scores.csv") for e in episodes]
+    for ax, (label, file) in zip(axes, files):
+        values = scores(file) / unit
+        ax.hist(values, np.linspace(0, 2.5, 31), density=True, color="#b2182b" if "episode" in label else "0.6")
+        ax.axvline(values.mean(), color="0.2", linewidth=0.9, linestyle="--")
+        ax.set_title(f"{label}: {values.mean():.2f}", fontsize=9)
+        ax.set_yticks([])
+        ax.tick_params(labelsize=8)
+        ax.spines[["top", "right"]].set_visible(False)
+    figure.supxlabel("graspability / mean of episode 0 (dashed: mean)", fontsize=9)
+    save_figure(figure, path)
+
+
+def picture(path, run, folder, out):
+    """Rows: prior set, then every episode; ten objects drawn at random."""
+    rows = [held_out(run.kind, out, 10, 3)]
+    for episode in sorted(e for e in rows_of(folder) if e >= 0):
+        rows.append(out / f"picture-{run.name}-{episode}.h5")
+        call("sample", folder / f"episode_{episode}/checkpoint.pt", "--count", 10, "--seed", SAMPLE_SEED, "--out", rows[-1])
+    call("sheet", *rows, "--pixels", 130, "--out", path)
+
+
+def summary(runs):
+    lines = ["| set | resampling iterations | paper, % | against the prior set, % | against episode 0, % | against the control, % |",
+             "| --- | --- | --- | --- | --- | --- |"]
+    for run, folder in runs:
+        rows, control = rows_of(folder), rows_of(folder / "control")
+        last = max(rows, default=-1)
+        if last < 1:
+            lines.append(f"| {run.name} | not run yet | {run.paper} | | | |")
+            continue
+        references = (rows[-1], rows[0], control.get(last))
+        cells = [f"{100 * (1 - r[0]):.0f} ±{100 * r[1]:.0f}" if r else "" for r in
+                 (ratio(rows[last], reference) if reference else None for reference in references)]
+        lines.append(f"| {run.name} | {last} | {run.paper} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def document(runs, out):
+    sections = []
+    for run, folder in runs:
+        if max(rows_of(folder), default=-1) < 0:
+            continue
+        histograms(IMAGES / f"gan_{run.name}_histograms.png", run, folder)
+        picture(IMAGES / f"gan_{run.name}.png", run, folder, out)
+        sections.append(f"""### {run.name}
+
+{stage_table(run, folder, out)}
+
+![Samples of {run.name}: prior set, then every episode](images/gan_{run.name}.png)
+
+From above: prior set, then every episode; drawn at random, nothing picked.
+
+![Histograms of graspability](images/gan_{run.name}_histograms.png)
+""")
+    write_section("gan", f"""
+## Sections VI-C and VI-D: CEM + GAN
+
+`scripts/reproduce gan`, written at commit {commit()}. 2,500 samples and 500 elites as in the paper; width, updates and the rest in
+[configs/reproduction.toml](../configs/reproduction.toml) (the paper: 16,000 updates an episode). Kappa is the mean over all usable samples of
+a stage, ± its 95 % interval. The control keeps 500 *random* usable samples in every episode: what it loses is what retraining alone
+does. COV, 1-NNA, Vendi score and roughness (mean dihedral angle) compare {COMPARED} samples with {COMPARED} prior shapes that no network has seen, on
+their surfaces ([similarity.md](similarity.md)). **The bottles are our own surfaces of revolution, not ShapeNet's.**
+
+Reduction of kappa:
+
+{summary(runs)}
+
+{"".join(sections)}
+""")
+    print(f"wrote {DOCUMENT}")
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="scripts/reproduce gan")
+    parser.add_argument("--only", choices=[run.name for run in RUNS], help="one run; several calls may run side by side")
+    parser.add_argument("--report", action="store_true", help="train nothing; write what there is into the document")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("runs/gan"), help="folder of the runs")
+    arguments = parser.parse_args()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    for run in RUNS:
+        if not arguments.report and arguments.only in (None, run.name):
+            train(f"{run.name}: {run.episodes} resampling iterations and their control", arguments.out / run.name, run.settings)
+    if arguments.report or not arguments.only:
+        document([(run, arguments.out / run.name) for run in RUNS], arguments.out)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,132 @@
+// The command compare: what it prints and writes, limits and refusals.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/csv_reader.h"
+#include "antigrasp/datasets/shape_set.h"
+#include "antigrasp/mesh/mesh_file.h"
+#include "tests/app/run_binary.h"
+#include "tests/support/shapes.h"
+#include "tests/support/temp_folder.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+using cli::Antigrasp;
+using cli::ExpectRefused;
+using cli::Outcome;
+using shapes::TempFolder;
+
+struct Pair {
+  std::string samples, reference;
+};
+
+std::map<std::string, Pair> Measures(const fs::path& path) {
+  CsvReader reader(path);
+  EXPECT_EQ(reader.names(), (std::vector<std::string>{"measure", "samples", "reference"}));
+  std::map<std::string, Pair> measures;
+  while (reader.Next()) measures[reader.Field(0)] = {reader.Field(1), reader.Field(2)};
+  return measures;
+}
+
+// Folders a (samples), b (reference) of boxes; a also holds what is no solid.
+void WriteSets(const TempFolder& folder) {
+  for (const char* name : {"a", "b"}) fs::create_directory(folder / name);
+  for (int i = 0; i < 6; ++i) {
+    const std::string name = std::to_string(i) + ".stl";
+    WriteMesh(folder / "a" / name, shapes::Box({1.0, 1.0 + 0.2 * i, 2.0}));
+    WriteMesh(folder / "b" / name, shapes::Box({1.0, 1.1 + 0.2 * i, 2.0}));
+  }
+  WriteMesh(folder / "a" / "open.stl", shapes::FlatSquare());
+  folder.Write("a/broken.stl", "no mesh");
+}
+
+TEST(CompareCli, PrintsATableAndWritesTheSameNumbersAtAnyThreadCount) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteSets(folder);
+  const std::string sets = "compare " + dir + "a " + dir + "b --train " + dir + "b --points 200";
+  const Outcome one = Antigrasp(sets + " --threads 1 --out " + dir + "one.csv");
+  ASSERT_EQ(one.code, 0) << one.text;
+  EXPECT_NE(one.text.find("coverage (COV), %"), std::string::npos) << one.text;
+  EXPECT_NE(one.text.find("8 objects: 6 ok"), std::string::npos) << one.text;
+  ASSERT_EQ(Antigrasp(sets + " --threads 4 --out " + dir + "four.csv").code, 0);
+  EXPECT_EQ(ReadFile(folder / "one.csv"), ReadFile(folder / "four.csv"));
+
+  auto measures = Measures(folder / "one.csv");
+  EXPECT_EQ(measures["shapes"].samples, "6");
+  EXPECT_EQ(measures["left_out"].samples, "2");
+  EXPECT_EQ(measures["left_out"].reference, "0");
+  EXPECT_EQ(measures["coverage"].reference, "");
+  EXPECT_NEAR(std::stod(measures["size"].reference) - std::stod(measures["size"].samples), 0.06,
+              0.02);
+  EXPECT_FALSE(measures["nearer_to_training"].samples.empty());
+}
+
+TEST(CompareCli, TakesAsManyShapesOfBothSetsAsAskedFor) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  ASSERT_EQ(Antigrasp("dataset make bottles --count 6 --seed 1 --out " + dir + "a.h5").code, 0);
+  ASSERT_EQ(Antigrasp("dataset make bottles --count 4 --seed 2 --out " + dir + "b.h5").code, 0);
+  const std::string sets = "compare " + dir + "a.h5 " + dir + "b.h5 --points 100 --out " + dir;
+  ASSERT_EQ(Antigrasp(sets + "all.csv").code, 0);
+  EXPECT_EQ(Measures(folder / "all.csv")["shapes"].samples, "4");
+  EXPECT_EQ(Measures(folder / "all.csv").count("nearer_to_training"), 0u);
+  ASSERT_EQ(Antigrasp(sets + "three.csv --count 3").code, 0);
+  EXPECT_EQ(Measures(folder / "three.csv")["shapes"].reference, "3");
+  ASSERT_EQ(Antigrasp(sets + "other.csv --seed 2").code, 0);
+  EXPECT_NE(ReadFile(folder / "all.csv"), ReadFile(folder / "other.csv"));
+}
+
+TEST(CompareCli, CountsGridsThatAreNoSolidByReason) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  ASSERT_EQ(Antigrasp("dataset make bottles --count 4 --out " + dir + "a.h5").code, 0);
+  ShapeSet set = ReadShapeSet(folder / "a.h5");
+  for (float& value : set.grids[1].values) value = -1.0F;
+  WriteShapeSet(folder / "b.h5", set);
+  const Outcome outcome =
+      Antigrasp("compare " + dir + "b.h5 " + dir + "a.h5 --points 50 --out " + dir + "c.csv");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("4 objects: 3 ok, 1 empty"), std::string::npos) << outcome.text;
+  EXPECT_EQ(Measures(folder / "c.csv")["left_out"].samples, "1");
+  EXPECT_EQ(Measures(folder / "c.csv")["shapes"].reference, "3");
+}
+
+TEST(CompareCli, WarnsOfOtherUnits) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteSets(folder);
+  fs::create_directory(folder / "mm");
+  for (const char* name : {"p.stl", "q.stl"}) {
+    WriteMesh(folder / "mm" / name, shapes::Box({40, 50, 60}));
+  }
+  const Outcome outcome = Antigrasp("compare " + dir + "mm " + dir + "b --points 50");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.text.find("same unit?"), std::string::npos) << outcome.text;
+}
+
+TEST(CompareCli, RefusesBadInputAndWritesNothing) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/", out = " --out " + dir + "c.csv";
+  WriteSets(folder);
+  ExpectRefused("compare " + dir + "none " + dir + "b" + out, "no such file");
+  ExpectRefused("compare " + dir + "a", "REFERENCE");
+  ExpectRefused("compare " + dir + "a " + dir + "b --count 1" + out, "--count");
+  ExpectRefused("compare " + dir + "a " + dir + "b --points 0" + out, "--points");
+  ExpectRefused("compare " + dir + "a " + dir + "b --out " + dir + "none/c.csv", "none");
+  folder.Write("text.txt", "no mesh");
+  ExpectRefused("compare " + dir + "text.txt " + dir + "b" + out, "text.txt");
+  // One solid is no set.
+  const Outcome one = Antigrasp("compare " + dir + "a/1.stl " + dir + "b" + out);
+  EXPECT_EQ(one.code, 2);
+  EXPECT_NE(one.text.find("antigrasp: 1 solids"), std::string::npos) << one.text;
+  EXPECT_FALSE(fs::exists(folder / "c.csv"));
+}
+
+}  // namespace
+}  // namespace antigrasp

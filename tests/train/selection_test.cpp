@@ -1,0 +1,96 @@
+#include "antigrasp/train/selection.h"
+
+#include <gtest/gtest.h>
+#include <torch/torch.h>
+
+#include <algorithm>
+#include <set>
+
+namespace antigrasp {
+namespace {
+
+constexpr int kFamilies = 4, kEach = 10;
+
+// Network values of `count` shapes of a family: far from the other families, near each other.
+torch::Tensor Family(int family, int count, double jitter) {
+  torch::Tensor values = torch::zeros({count, 1, 4, 4, 4});
+  values.select(2, family).fill_(1.0);
+  for (int i = 0; i < count; ++i) values[i].view(-1)[i] += jitter;
+  return values;
+}
+
+torch::Tensor Prior() {
+  std::vector<torch::Tensor> families;
+  for (int f = 0; f < kFamilies; ++f) families.push_back(Family(f, kEach, 0.01));
+  return torch::cat(families).to(torch::kHalf);
+}
+
+// 20 samples of the first family, hard to grasp, and 4 of the second.
+ScoredStage Stage() {
+  ScoredStage scored;
+  scored.values = torch::cat({Family(0, 20, 0.02), Family(1, 4, 0.02)});
+  for (int i = 0; i < 24; ++i) scored.graspabilities.push_back(0.001 * (i + 1));
+  return scored;
+}
+
+RunConfig Config(const std::string& variant) {
+  RunConfig config;
+  config.cem.variant = variant;
+  config.cem.samples = 24;
+  config.cem.keep = 8;
+  config.cem.cells = kFamilies * kEach;  // every prior shape is a cell
+  return config;
+}
+
+TEST(EliteSelector, OfThePaperKeepsTheLeastGraspableHoweverAlikeTheyAre) {
+  const RunConfig config = Config("paper");
+  const EliteSelector selector(config, Prior());
+  const Selection selection = selector.Select(Stage(), 1);
+  EXPECT_EQ(selection.elites, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_TRUE(selection.replayed.empty());
+  EXPECT_EQ(selector.TrainingSet(Stage(), selection).size(0), 8);
+}
+
+TEST(EliteSelector, StratifiedKeepsThePriorsSharesAndReplaysWhatIsMissing) {
+  RunConfig config = Config("stratified");
+  config.cem.keep = 40;
+  const EliteSelector selector(config, Prior());
+  const Selection selection = selector.Select(Stage(), 1);
+  EXPECT_EQ(selection.elites.size() + selection.replayed.size(), 40U);
+  const torch::Tensor set = selector.TrainingSet(Stage(), selection).to(torch::kFloat);
+  for (int f = 0; f < kFamilies; ++f) {
+    const auto members = (set.select(2, f).flatten(1).mean(1) > 0.5).sum().item<std::int64_t>();
+    EXPECT_EQ(members, kEach) << "family " << f;
+  }
+  for (const std::int64_t i : selection.replayed) {
+    EXPECT_GE(i, 0);
+    EXPECT_LT(i, kFamilies * kEach);
+  }
+}
+
+TEST(EliteSelector, MixesInTheAskedShareOfThePriorSet) {
+  RunConfig config = Config("paper");
+  config.cem.prior_fraction = 0.5;
+  const EliteSelector selector(config, Prior());
+  const Selection first = selector.Select(Stage(), 1), second = selector.Select(Stage(), 2);
+  EXPECT_EQ(first.replayed.size(), 4U);
+  EXPECT_EQ(std::set<std::int64_t>(first.replayed.begin(), first.replayed.end()).size(), 4U);
+  EXPECT_NE(first.replayed, second.replayed) << "every episode draws anew";
+  EXPECT_EQ(selector.TrainingSet(Stage(), first).size(0), 12);
+}
+
+TEST(EliteSelector, OfTheControlDrawsOtherElitesInEveryEpisode) {
+  for (const char* variant : {"paper", "stratified"}) {
+    RunConfig config = Config(variant);
+    config.cem.select = "random";
+    config.cem.cells = kFamilies;
+    const EliteSelector selector(config, Prior());
+    const Selection first = selector.Select(Stage(), 1), again = selector.Select(Stage(), 1);
+    EXPECT_EQ(first.elites, again.elites);
+    EXPECT_NE(first.elites, selector.Select(Stage(), 2).elites) << variant;
+    EXPECT_TRUE(std::is_sorted(first.elites.begin(), first.elites.end()));
+  }
+}
+
+}  // namespace
+}  // namespace antigrasp
