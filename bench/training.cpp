@@ -91,6 +91,7 @@ std::unique_ptr<PeerProcess> PythonPeer(const ModelOptions& model, int threads) 
 }
 
 void CompareSteps(int width, int pack, int threads) {
+  at::set_num_threads(threads);
   const ModelOptions model = Model(width, pack);
   const std::string name = "_width" + std::to_string(width) +
                            (pack > 1 ? "_pack" + std::to_string(pack) : "") + "_threads" +
@@ -126,7 +127,6 @@ void CompareSteps(int width, int pack, int threads) {
 
 void CompareSteps() {
   for (const int threads : {1, 2}) {
-    at::set_num_threads(threads);
     for (const int width : {8, 16, 32}) {
       for (const int pack : {1, 4}) CompareSteps(width, pack, threads);
     }
@@ -207,8 +207,11 @@ int main(int argc, char** argv) {
   const auto wants = [&](const char* name) {
     return named.empty() || (named.size() == 1 && named[0] == name);
   };
-  bool known = named.size() == 3 && named[0] == "memory";
-  if (known) TrainAndPrintMemory(std::stoi(named[1]), std::stoi(named[2]));
+  const bool memory = named.size() == 3 && named[0] == "memory";
+  const bool steps = named.size() == 4 && named[0] == "steps";
+  if (memory) TrainAndPrintMemory(std::stoi(named[1]), std::stoi(named[2]));
+  if (steps) CompareSteps(std::stoi(named[1]), std::stoi(named[2]), std::stoi(named[3]));
+  bool known = memory || steps;
   const std::vector<std::pair<const char*, std::function<void()>>> comparisons = {
       {"equality", CheckEquality},
       {"steps", [] { CompareSteps(); }},
@@ -220,6 +223,7 @@ int main(int argc, char** argv) {
     compare();
   }
   if (known) return 0;
-  std::fprintf(stderr, "bench_training [equality | steps | sampling | memory]\n");
+  std::fprintf(stderr,
+               "bench_training [equality | steps [WIDTH PACK THREADS] | sampling | memory]\n");
   return 2;
 }
