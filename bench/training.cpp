@@ -1,6 +1,7 @@
 // Training and sampling against the same networks written the plain way (plain_gan.h) and against
 // PyTorch (training_peer.py), in one run: `ratio NAME VALUE`, above 1 = times as fast as the other.
 #include <ATen/Parallel.h>
+#include <malloc.h>
 #include <torch/torch.h>
 
 #include <algorithm>
@@ -134,30 +135,32 @@ void CompareSteps() {
 }
 
 // A resampling step draws 2,500 grids. The plain way draws them in the same batches.
-void CompareSampling() {
+void CompareSampling(int width, int threads) {
   constexpr std::int64_t kCount = 2500;
-  for (const int threads : {1, 2}) {
-    at::set_num_threads(threads);
-    for (const int width : {8, 16, 32}) {
-      const auto ours = MakeTrainer(Model(width, 1), kBatch);
-      PlainGenerator plain(Model(width, 1));
-      plain->eval();
-      ours->Sample(1, 0, kBatch);  // the average's batch statistics are drawn once for its weights
-      const auto draw_plain = [&] {
-        torch::NoGradGuard no_grad;
-        std::vector<torch::Tensor> parts;
-        for (std::int64_t i = 0; i < kCount; i += kBatch) {
-          parts.push_back(plain(torch::randn({std::min<std::int64_t>(kBatch, kCount - i), 200})));
-        }
-        torch::cat(parts);
-      };
-      const std::vector<double> seconds =
-          MedianSeconds({{"ours", [&] { ours->Sample(1, 0, kCount); }}, {"plain", draw_plain}}, 3);
-      const std::string name =
-          "sampling_2500_width" + std::to_string(width) + "_threads" + std::to_string(threads);
-      PrintTime(name, seconds[0]);
-      PrintRatio(name + "_vs_plain_libtorch", seconds[1] / seconds[0]);
+  at::set_num_threads(threads);
+  const auto ours = MakeTrainer(Model(width, 1), kBatch);
+  PlainGenerator plain(Model(width, 1));
+  plain->eval();
+  ours->Sample(1, 0, kBatch);  // the average's batch statistics are drawn once for its weights
+  const auto draw_plain = [&] {
+    torch::NoGradGuard no_grad;
+    std::vector<torch::Tensor> parts;
+    for (std::int64_t i = 0; i < kCount; i += kBatch) {
+      parts.push_back(plain(torch::randn({std::min<std::int64_t>(kBatch, kCount - i), 200})));
     }
+    torch::cat(parts);
+  };
+  const std::vector<double> seconds =
+      MedianSeconds({{"ours", [&] { ours->Sample(1, 0, kCount); }}, {"plain", draw_plain}}, 3);
+  const std::string name =
+      "sampling_2500_width" + std::to_string(width) + "_threads" + std::to_string(threads);
+  PrintTime(name, seconds[0]);
+  PrintRatio(name + "_vs_plain_libtorch", seconds[1] / seconds[0]);
+}
+
+void CompareSampling() {
+  for (const int threads : {1, 2}) {
+    for (const int width : {8, 16, 32}) CompareSampling(width, threads);
   }
 }
 
@@ -203,6 +206,8 @@ void TrainAndPrintMemory(int width, int batch) {
 
 int main(int argc, char** argv) {
   using namespace antigrasp::bench;
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);  // like the program itself: both ways gain
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
   const std::vector<std::string> named(argv + 1, argv + argc);
   const auto wants = [&](const char* name) {
     return named.empty() || (named.size() == 1 && named[0] == name);
@@ -211,11 +216,13 @@ int main(int argc, char** argv) {
   const bool steps = named.size() == 4 && named[0] == "steps";
   if (memory) TrainAndPrintMemory(std::stoi(named[1]), std::stoi(named[2]));
   if (steps) CompareSteps(std::stoi(named[1]), std::stoi(named[2]), std::stoi(named[3]));
-  bool known = memory || steps;
+  const bool sampling = named.size() == 3 && named[0] == "sampling";
+  if (sampling) CompareSampling(std::stoi(named[1]), std::stoi(named[2]));
+  bool known = memory || steps || sampling;
   const std::vector<std::pair<const char*, std::function<void()>>> comparisons = {
       {"equality", CheckEquality},
       {"steps", [] { CompareSteps(); }},
-      {"sampling", CompareSampling},
+      {"sampling", [] { CompareSampling(); }},
       {"memory", [&] { MeasureMemory(argv[0]); }}};
   for (const auto& [name, compare] : comparisons) {
     if (!wants(name)) continue;
@@ -224,6 +231,7 @@ int main(int argc, char** argv) {
   }
   if (known) return 0;
   std::fprintf(stderr,
-               "bench_training [equality | steps [WIDTH PACK THREADS] | sampling | memory]\n");
+               "bench_training [equality | steps [WIDTH PACK THREADS] | sampling [WIDTH THREADS] | "
+               "memory]\n");
   return 2;
 }
