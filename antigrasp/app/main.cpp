@@ -83,8 +83,8 @@ int main(int argc, char** argv) {
   spdlog::set_pattern("[%H:%M:%S] %^%v%$");
   InstallSignalHandlers();
 #ifdef __GLIBC__
-  // A training step frees and takes the same large blocks again and again: keep them (8-10 % of a
-  // step at width 8).
+  // A training step frees and takes the same large blocks again and again: keep them
+  // (docs/performance.md).
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
 #endif

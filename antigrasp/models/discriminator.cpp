@@ -82,7 +82,10 @@ torch::Tensor DiscriminatorImpl::forward(const torch::Tensor& sdf) {
 
 torch::Tensor DiscriminatorImpl::ForwardFolded(const torch::Tensor& folded) {
   const std::int64_t inputs = PacksFeatures() ? 1 : options_.pack;
-  const auto packed = folded.reshape({-1, 8 * inputs, 17, 17, 17});
+  const auto packed = folded.view({-1, inputs, 8, 17, 17, 17})
+                          .permute({0, 3, 4, 5, 2, 1})
+                          .reshape({-1, 17, 17, 17, 8 * inputs})
+                          .permute({0, 4, 1, 2, 3});  // a phase of all shapes, then the next
   torch::Tensor x = Refine(0, DownConv(packed, weights_[0](), biases_[0]));  // [N, c, 16, 16, 16]
   x = Refine(1, DownConv(Fold(x), weights_[1](), biases_[1]));               // [N, 2c, 8, 8, 8]
   x = Refine(2, DownConv(Fold(x), weights_[2](), biases_[2]));               // [N, 4c, 4, 4, 4]

@@ -4,7 +4,9 @@
 #include <ATen/Parallel.h>
 #include <torch/csrc/autograd/custom_function.h>
 
-#include "antigrasp/models/fold_plane.h"
+#include <algorithm>
+
+#include "antigrasp/models/fold_cells.h"
 
 namespace antigrasp {
 namespace {
@@ -13,24 +15,24 @@ using torch::autograd::AutogradContext;
 using torch::autograd::Function;
 using torch::autograd::variable_list;
 
-constexpr std::int64_t kCells = 17;
+constexpr at::MemoryFormat kChannelsLast = at::MemoryFormat::ChannelsLast3d;
 
-// The plane kernels take float on the CPU; every other tensor goes through strided copies.
-bool HasPlaneKernel(const at::Tensor& x) {
-  return x.device().is_cpu() && x.scalar_type() == at::kFloat;
+// The memory moves take float on the CPU; every other tensor goes through strided copies.
+bool HasMoves(const at::Tensor& x) {
+  return x.device().is_cpu() && x.scalar_type() == at::kFloat && x.numel() > 0;
 }
 
 // Both directions of folding keep the ring here: [N, 8 C, h, h, h] <-> [N, C, 2h, 2h, 2h].
 at::Tensor CellsToNodes(const at::Tensor& folded) {
   const std::int64_t channels = folded.size(1) / 8, h = folded.size(2);
-  return folded.reshape({-1, channels, 2, 2, 2, h, h, h})
-      .permute({0, 1, 5, 2, 6, 3, 7, 4})
+  return folded.reshape({-1, 2, 2, 2, channels, h, h, h})
+      .permute({0, 4, 5, 1, 6, 2, 7, 3})
       .reshape({-1, channels, 2 * h, 2 * h, 2 * h});
 }
 at::Tensor NodesToCells(const at::Tensor& nodes) {
   const std::int64_t channels = nodes.size(1), h = nodes.size(2) / 2;
   return nodes.reshape({-1, channels, h, 2, h, 2, h, 2})
-      .permute({0, 1, 3, 5, 7, 2, 4, 6})
+      .permute({0, 3, 5, 7, 1, 2, 4, 6})
       .reshape({-1, 8 * channels, h, h, h});
 }
 
@@ -40,61 +42,51 @@ at::Tensor DropRing(const at::Tensor& x) {
   return x.slice(2, 1, end).slice(3, 1, end).slice(4, 1, end).contiguous();
 }
 
-// Runs kernel(source plane, target plane) for each channel of each sample.
-template <typename Kernel>
-void ForPlanes(const at::Tensor& source, const at::Tensor& target, std::int64_t planes,
-               const Kernel& kernel) {
-  const float* from = source.data_ptr<float>();
-  float* to = target.data_ptr<float>();
-  const std::int64_t from_size = source.numel() / planes, to_size = target.numel() / planes;
-  at::parallel_for(0, planes, 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) {
-      kernel(from + i * from_size, to + i * to_size);
-    }
+// A new tensor of this shape, each sample of it made by move(sample of source, sample of result).
+template <typename Move>
+at::Tensor MoveSamples(const at::Tensor& source, at::IntArrayRef shape, const Move& move) {
+  const at::Tensor from = source.contiguous(kChannelsLast);
+  at::Tensor result = at::empty(shape, source.options(), kChannelsLast);
+  const std::int64_t from_size = from.numel() / shape[0], to_size = result.numel() / shape[0];
+  const float* in = from.data_ptr<float>();
+  float* out = result.data_ptr<float>();
+  at::parallel_for(0, shape[0], 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) move(in + i * from_size, out + i * to_size);
   });
+  return result;
 }
 
 at::Tensor FoldValues(const at::Tensor& grid) {
-  if (!HasPlaneKernel(grid) || grid.numel() == 0) {
-    return NodesToCells(AddRing(grid));
-  }
-  const std::int64_t s = grid.size(2), h = s / 2 + 1;
-  at::Tensor result = at::empty({grid.size(0), 8 * grid.size(1), h, h, h}, grid.options());
-  ForPlanes(grid.contiguous(), result, grid.size(0) * grid.size(1),
-            [s](const float* from, float* to) { FoldPlane(from, static_cast<int>(s), to); });
-  return result;
+  if (!HasMoves(grid)) return NodesToCells(AddRing(grid));
+  const auto c = static_cast<int>(grid.size(1)), s = static_cast<int>(grid.size(2));
+  const std::int64_t h = s / 2 + 1;
+  return MoveSamples(grid, {grid.size(0), 8 * c, h, h, h},
+                     [=](const float* from, float* to) { FoldNodes(from, s, c, to); });
 }
 
 at::Tensor UnfoldValues(const at::Tensor& folded) {
-  if (!HasPlaneKernel(folded) || folded.numel() == 0) {
-    return DropRing(CellsToNodes(folded));
-  }
-  const std::int64_t channels = folded.size(1) / 8, s = 2 * folded.size(2) - 2;
-  at::Tensor result = at::empty({folded.size(0), channels, s, s, s}, folded.options());
-  ForPlanes(folded.contiguous(), result, folded.size(0) * channels,
-            [s](const float* from, float* to) { UnfoldPlane(from, static_cast<int>(s), to); });
-  return result;
+  if (!HasMoves(folded)) return DropRing(CellsToNodes(folded));
+  const auto c = static_cast<int>(folded.size(1) / 8), s = static_cast<int>(2 * folded.size(2) - 2);
+  return MoveSamples(folded, {folded.size(0), c, s, s, s},
+                     [=](const float* from, float* to) { UnfoldCells(from, s, c, to); });
 }
 
 at::Tensor BlurValues(const at::Tensor& folded) {
-  if (!HasPlaneKernel(folded) || folded.numel() == 0) {
+  if (!HasMoves(folded)) {
     const at::Tensor taps = at::tensor({0.25, 0.5, 0.25}, folded.options());
     const at::Tensor kernel = taps.view({3, 1, 1}) * taps.view({3, 1}) * taps;
     return NodesToCells(at::conv3d(CellsToNodes(folded), kernel.view({1, 1, 3, 3, 3}), {}, 1, 1));
   }
-  const at::Tensor source = folded.contiguous();
-  at::Tensor result = at::empty_like(source);
-  ForPlanes(source, result, source.size(0), BlurPlane);
-  return result;
+  return MoveSamples(folded, folded.sizes(), BlurCells);
 }
 
 at::Tensor WithoutRing(const at::Tensor& folded) {
-  if (!HasPlaneKernel(folded) || folded.numel() == 0) {
-    return NodesToCells(AddRing(DropRing(CellsToNodes(folded))));
-  }
-  at::Tensor result = folded.clone(at::MemoryFormat::Contiguous);
-  ForPlanes(result, result, result.size(0), [](const float*, float* plane) { ClearRing(plane); });
-  return result;
+  if (!HasMoves(folded)) return NodesToCells(AddRing(DropRing(CellsToNodes(folded))));
+  const std::int64_t size = folded.numel() / folded.size(0);
+  return MoveSamples(folded, folded.sizes(), [size](const float* from, float* to) {
+    std::copy(from, from + size, to);
+    ClearRing(to);
+  });
 }
 
 struct FoldFunction : Function<FoldFunction> {
@@ -125,50 +117,10 @@ struct BlurAndClearRingFunction : Function<BlurAndClearRingFunction> {
   }
 };
 
-// [a, b, 4, 4, 4] -> [a, 8 b, 2, 2, 2]: tap 2 s + p of an axis links the phase p of a cell to the
-// value s cells before it.
-at::Tensor FoldKernel(const at::Tensor& weight) {
-  return weight.view({weight.size(0), weight.size(1), 2, 2, 2, 2, 2, 2})
-      .permute({0, 1, 3, 5, 7, 2, 4, 6})
-      .reshape({weight.size(0), 8 * weight.size(1), 2, 2, 2});
-}
-
-// Gradient of conv3d(input, kernel), kernel 2, with respect to its input or its kernel.
-at::Tensor ConvGradient(const at::Tensor& grad_output, const at::Tensor& input,
-                        const at::Tensor& kernel, bool of_input) {
-  auto gradients =
-      at::convolution_backward(grad_output, input, kernel, c10::nullopt, {1, 1, 1}, {0, 0, 0},
-                               {1, 1, 1}, false, {0, 0, 0}, 1, {of_input, !of_input, false});
-  return of_input ? std::get<0>(gradients) : std::get<1>(gradients);
-}
-
-// The transpose of x -> conv3d(x, kernel): what that convolution calls the gradient of its input.
-struct TransposedConvFunction : Function<TransposedConvFunction> {
-  static at::Tensor forward(AutogradContext* ctx, const at::Tensor& x, const at::Tensor& kernel) {
-    ctx->save_for_backward({x, kernel});
-    const std::int64_t h = x.size(2) + 1;
-    const at::Tensor shape_only = at::empty({x.size(0), kernel.size(1), h, h, h}, x.options());
-    return ConvGradient(x, shape_only, kernel, true);
-  }
-  static variable_list backward(AutogradContext* ctx, variable_list grads) {
-    const variable_list saved = ctx->get_saved_variables();
-    return {at::conv3d(grads[0], saved[1]), ConvGradient(saved[0], grads[0], saved[1], false)};
-  }
-};
-
 }  // namespace
 
 torch::Tensor Fold(const torch::Tensor& grid) { return FoldFunction::apply(grid); }
 torch::Tensor Unfold(const torch::Tensor& folded) { return UnfoldFunction::apply(folded); }
-
-torch::Tensor DownConv(const torch::Tensor& folded, const torch::Tensor& weight,
-                       const torch::Tensor& bias) {
-  return at::conv3d(folded, FoldKernel(weight), bias);
-}
-
-torch::Tensor UpConv(const torch::Tensor& x, const torch::Tensor& weight) {
-  return TransposedConvFunction::apply(x, FoldKernel(weight));
-}
 
 torch::Tensor BlurAndClearRing(const torch::Tensor& folded, bool blur) {
   return BlurAndClearRingFunction::apply(folded, blur);

@@ -4,15 +4,16 @@
 
 namespace antigrasp {
 
-// Convolutions with kernel 4, stride 2, padding 1 and their transposes, in a form that oneDNN runs
-// fast on the CPU. A grid of s^3 nodes with a ring of zero nodes around it is cut into 2^3 blocks:
-// the eight nodes of a block become channels of one cell of h^3, h = s / 2 + 1. On the cells the
-// kernel is 2 and the stride 1, with the same weights and the same numbers. Strided gradients have
-// no AVX2 kernel in oneDNN, and one-channel grids are slow everywhere: a training step takes a
-// quarter of the time of the plain layers.
+// Convolutions with kernel 4, stride 2, padding 1 and their transposes, in a form that runs fast on
+// the CPU. A grid of s^3 nodes with a ring of zero nodes around it is cut into 2^3 blocks: the
+// eight nodes of a block become channels of one cell of h^3, h = s / 2 + 1. On the cells the kernel
+// is 2 and the stride 1, with the same weights and the same numbers. Strided gradients have no AVX2
+// kernel in oneDNN, and one-channel grids are slow everywhere: docs/performance.md. Float on a CPU
+// with AVX2 goes through cell_conv.h, all else through the convolutions of LibTorch. Everything
+// here is differentiable once.
 
-// [N, C, s, s, s] <-> [N, 8 C, h, h, h], s even. Unfolding drops the ring. Each is the other's
-// gradient.
+// [N, C, s, s, s] <-> [N, 8 C, h, h, h], s even: channel p C + c of a cell is channel c of its node
+// p = 4 pz + 2 py + px. Unfolding drops the ring. Each is the other's gradient.
 torch::Tensor Fold(const torch::Tensor& grid);
 torch::Tensor Unfold(const torch::Tensor& folded);
 
@@ -23,7 +24,7 @@ torch::Tensor DownConv(const torch::Tensor& folded, const torch::Tensor& weight,
 
 // conv_transpose3d, stride 2, folded: weight [in, out, 4, 4, 4], no bias.
 // x [N, in, s, s, s] -> [N, 8 out, s + 1, s + 1, s + 1]. Unfolded it is the layer with padding 1;
-// the ring holds what a padding of 0 adds. Differentiable once.
+// the ring holds what a padding of 0 adds.
 torch::Tensor UpConv(const torch::Tensor& x, const torch::Tensor& weight);
 
 // Smooths with [1 2 1]/4 along each axis (zero beyond the ring) if `blur`, then zeroes the ring.

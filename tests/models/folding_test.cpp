@@ -60,7 +60,14 @@ TEST(Folding, FoldAndUnfoldAreEachOthersGradient) {
 }
 
 TEST(Folding, DownConvEqualsThePlainStridedConvolutionWithItsGradients) {
-  for (const auto& [in, out, side] : {std::array{1, 5, 32}, {3, 4, 8}, {6, 2, 4}}) {
+  for (const auto& [in, out, side] : {std::array{1, 5, 32},
+                                      {3, 4, 8},
+                                      {6, 2, 4},
+                                      // with kernels of our own: 8 k channels
+                                      {1, 8, 32},
+                                      {3, 16, 8},
+                                      {2, 40, 6},
+                                      {5, 24, 2}}) {
     std::vector<torch::Tensor> plain = {Normal({2, in, side, side, side}, 8),
                                         Normal({out, in, 4, 4, 4}, 9), Normal({out}, 10)};
     std::vector<torch::Tensor> folded;
@@ -84,7 +91,14 @@ TEST(Folding, DownConvEqualsThePlainStridedConvolutionWithItsGradients) {
 }
 
 TEST(Folding, UpConvEqualsThePlainTransposedConvolutionWithItsGradients) {
-  for (const auto& [in, out, side] : {std::array{5, 1, 16}, {4, 3, 4}, {2, 6, 2}}) {
+  for (const auto& [in, out, side] : {std::array{5, 1, 16},
+                                      {4, 3, 4},
+                                      {2, 6, 2},
+                                      // with kernels of our own: 8 k channels
+                                      {8, 1, 16},
+                                      {16, 3, 4},
+                                      {40, 2, 3},
+                                      {24, 5, 1}}) {
     std::vector<torch::Tensor> plain = {Normal({2, in, side, side, side}, 12),
                                         Normal({in, out, 4, 4, 4}, 13)};
     std::vector<torch::Tensor> folded;
@@ -104,6 +118,26 @@ TEST(Folding, UpConvEqualsThePlainTransposedConvolutionWithItsGradients) {
           << "gradient " << i;
     }
   }
+}
+
+TEST(Folding, ConvolutionsGiveTheSameBitsWithAnyNumberOfThreads) {
+  std::vector<torch::Tensor> first;
+  const int threads_before = at::get_num_threads();
+  for (const int threads : {1, 2, 5}) {
+    at::set_num_threads(threads);
+    const torch::Tensor folded = Normal({7, 24, 5, 5, 5}, 20).requires_grad_();
+    const torch::Tensor weight = Normal({40, 3, 4, 4, 4}, 21).requires_grad_();
+    const torch::Tensor down = DownConv(folded, weight, torch::zeros({40}));
+    const torch::Tensor up = UpConv(down, weight);
+    const auto gradients =
+        torch::autograd::grad({(up * Normal(up.sizes(), 22)).sum()}, {folded, weight});
+    const std::vector<torch::Tensor> all = {down, up, gradients[0], gradients[1]};
+    if (first.empty()) first = all;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      EXPECT_TRUE(torch::equal(all[i], first[i])) << threads << " threads, tensor " << i;
+    }
+  }
+  at::set_num_threads(threads_before);
 }
 
 TEST(Folding, BlurIsTheBinomialFilterOfTheUncroppedOutput) {

@@ -1,0 +1,19 @@
+#pragma once
+
+namespace antigrasp {
+
+// The memory moves behind folding.h on the CPU, where general strided copies of tensors take longer
+// than the convolutions they feed. Channels lie side by side.
+
+// grid: s^3 nodes of c values, s even; cells: h^3 cells of 8 c values, h = s / 2 + 1, the eight
+// nodes of a cell one after another, number 4 pz + 2 py + px. Node g of an axis is the phase
+// p = (g + 1) % 2 of cell (g + 1) / 2.
+void FoldNodes(const float* grid, int s, int c, float* cells);    // nodes -1 and s are zero
+void UnfoldCells(const float* cells, int s, int c, float* grid);  // drops them
+
+// cells, s = 32, c = 1: smooths the 34^3 nodes, ring included, with [1 2 1]/4 along each axis,
+// values beyond being zero. A symmetric matrix. May work in place.
+void BlurCells(const float* cells, float* result);
+void ClearRing(float* cells);  // zeroes the ring, s = 32, c = 1
+
+}  // namespace antigrasp
