@@ -9,6 +9,7 @@
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/atomic_file.h"
+#include "antigrasp/models/sdf_values.h"
 #include "antigrasp/train/episode_loop.h"
 
 namespace antigrasp {
@@ -40,7 +41,7 @@ void Sample(const SampleFlags& flags) {
   ShapeSet set;
   set.kind = "samples";
   set.seed = flags.seed;
-  set.truncation = config.model.truncation;
+  set.truncation = LargestDistance(config.model);
   set.provenance = "antigrasp sample " + path.string() + ", episode " +
                    std::to_string(trainer.episode()) + ", update " + std::to_string(trainer.step());
   constexpr int kChunk = 64;

@@ -44,7 +44,8 @@ fs::path FindNetworks(const std::string& path_or_name) {
   std::string names;
   for (const std::string& name : PretrainedNames()) names += (names.empty() ? "" : ", ") + name;
   throw InputError("no such networks", path_or_name,
-                   "a checkpoint, the folder of a run, or one of: " + names);
+                   names.empty() ? "a checkpoint or the folder of a run"
+                                 : "a checkpoint, the folder of a run, or one of: " + names);
 }
 
 }  // namespace antigrasp

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "antigrasp/models/folding.h"
+#include "antigrasp/models/libtorch.h"
 
 namespace antigrasp {
 namespace {
@@ -80,17 +81,20 @@ torch::Tensor DiscriminatorImpl::forward(const torch::Tensor& sdf) {
   return ForwardFolded(Fold(sdf));  // [N, 8, 17, 17, 17]
 }
 
-torch::Tensor DiscriminatorImpl::ForwardFolded(const torch::Tensor& folded) {
+torch::Tensor DiscriminatorImpl::ForwardFolded(const torch::Tensor& grids) {
+  const at::ScalarType compute = ConvolutionType(options_);
+  const torch::Tensor folded = EmphasizeEdges(grids, options_.edge_gain);
   const std::int64_t inputs = PacksFeatures() ? 1 : options_.pack;
   const auto packed = folded.view({-1, inputs, 8, 17, 17, 17})
                           .permute({0, 3, 4, 5, 2, 1})
                           .reshape({-1, 17, 17, 17, 8 * inputs})
                           .permute({0, 4, 1, 2, 3});  // a phase of all shapes, then the next
-  torch::Tensor x = Refine(0, DownConv(packed, weights_[0](), biases_[0]));  // [N, c, 16, 16, 16]
-  x = Refine(1, DownConv(Fold(x), weights_[1](), biases_[1]));               // [N, 2c, 8, 8, 8]
-  x = Refine(2, DownConv(Fold(x), weights_[2](), biases_[2]));               // [N, 4c, 4, 4, 4]
+  torch::Tensor x =
+      Refine(0, DownConv(packed, weights_[0](), biases_[0], compute));       // [N, c, 16, 16, 16]
+  x = Refine(1, DownConv(Fold(x), weights_[1](), biases_[1], compute));      // [N, 2c, 8, 8, 8]
+  x = Refine(2, DownConv(Fold(x), weights_[2](), biases_[2], compute));      // [N, 4c, 4, 4, 4]
   if (PacksFeatures()) x = WithDeviation(x, options_.pack);                  // [N, 8c, 4, 4, 4]
-  x = LeakyRelu(DownConv(Fold(x), weights_[3](), biases_[3]));               // [N, 8c, 2, 2, 2]
+  x = LeakyRelu(DownConv(Fold(x), weights_[3](), biases_[3], compute));      // [N, 8c, 2, 2, 2]
   return torch::linear(x.flatten(1), weights_[4](), biases_[4]).squeeze(1);  // [N]
 }
 

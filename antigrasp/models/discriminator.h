@@ -21,7 +21,7 @@ class DiscriminatorImpl : public torch::nn::Module {
   torch::Tensor forward(const torch::Tensor& sdf);
 
   // The same for grids folded as folding.h says, [pack N, 8, 17, 17, 17].
-  torch::Tensor ForwardFolded(const torch::Tensor& folded);
+  torch::Tensor ForwardFolded(const torch::Tensor& grids);
 
   void Initialize(RngStream* rng);  // fresh weights
 

@@ -7,6 +7,7 @@
 
 #include "antigrasp/models/cell_conv.h"
 #include "antigrasp/models/folding.h"
+#include "antigrasp/models/libtorch.h"
 
 // A kernel of 4 with stride 2 on nodes is a kernel of 2 with stride 1 on cells: tap 2 s + p of an
 // axis links the phase p of a cell to the value s cells before it.
@@ -65,23 +66,35 @@ std::vector<float> Panels(const at::Tensor& weight, bool of_outputs) {
   return panels;
 }
 
-bool TakesCellConv(const at::Tensor& x, const at::Tensor& weight) {
-  return HasCellConv() && x.device().is_cpu() && x.scalar_type() == at::kFloat && x.numel() > 0 &&
-         weight.size(0) % 8 == 0;
+bool TakesCellConv(const at::Tensor& x, const at::Tensor& weight, at::ScalarType compute) {
+  return compute == at::kFloat && HasCellConv() && x.device().is_cpu() &&
+         x.scalar_type() == at::kFloat && x.numel() > 0 && weight.size(0) % 8 == 0;
+}
+
+// What LibTorch's convolutions take. Tensor cores want the channels side by side.
+at::Tensor Operand(const at::Tensor& x, at::ScalarType compute) {
+  return compute == at::kFloat ? x : x.to(x.options().dtype(compute), false, false, kChannelsLast);
 }
 
 // at::convolution_backward of x -> conv3d(x, kernel): of its input or of its kernel.
 at::Tensor ConvGradient(const at::Tensor& grad_output, const at::Tensor& input,
-                        const at::Tensor& kernel, bool of_input) {
+                        const at::Tensor& kernel, bool of_input, at::ScalarType compute) {
   auto gradients =
-      at::convolution_backward(grad_output, input, kernel, c10::nullopt, {1, 1, 1}, {0, 0, 0},
+      at::convolution_backward(Operand(grad_output, compute), Operand(input, compute),
+                               Operand(kernel, compute), kNoBiasSizes, {1, 1, 1}, {0, 0, 0},
                                {1, 1, 1}, false, {0, 0, 0}, 1, {of_input, !of_input, false});
-  return of_input ? std::get<0>(gradients) : std::get<1>(gradients);
+  return (of_input ? std::get<0>(gradients) : std::get<1>(gradients)).to(grad_output.scalar_type());
 }
 
 // cells [N, 8 b, h, h, h], weight [a, b, 4, 4, 4] -> [N, a, h - 1, h - 1, h - 1].
-at::Tensor Convolve(const at::Tensor& cells, const at::Tensor& weight, const at::Tensor& bias) {
-  if (!TakesCellConv(cells, weight)) return at::conv3d(cells, FoldKernel(weight), bias);
+at::Tensor Convolve(const at::Tensor& cells, const at::Tensor& weight, const at::Tensor& bias,
+                    at::ScalarType compute) {
+  if (!TakesCellConv(cells, weight, compute)) {
+    const at::Tensor sums =
+        at::conv3d(Operand(cells, compute), Operand(FoldKernel(weight), compute),
+                   bias.defined() ? bias.to(compute) : bias);
+    return sums.to(cells.scalar_type());
+  }
   const at::Tensor x = cells.contiguous(kChannelsLast);
   const at::Tensor b = bias.defined() ? bias.contiguous() : bias;
   const CellConvShape shape{x.size(0), x.size(2), x.size(1), weight.size(0)};
@@ -93,11 +106,13 @@ at::Tensor Convolve(const at::Tensor& cells, const at::Tensor& weight, const at:
 }
 
 // Its transpose: values [N, a, g, g, g] -> [N, 8 b, g + 1, g + 1, g + 1].
-at::Tensor ConvolveTransposed(const at::Tensor& values, const at::Tensor& weight) {
+at::Tensor ConvolveTransposed(const at::Tensor& values, const at::Tensor& weight,
+                              at::ScalarType compute) {
   const std::int64_t n = values.size(0), h = values.size(2) + 1, in = 8 * weight.size(1);
   at::Tensor result = at::empty({n, in, h, h, h}, values.options(), kChannelsLast);
-  if (!TakesCellConv(values, weight)) {
-    return ConvGradient(values, result, FoldKernel(weight), true);  // looks at its shape only
+  if (!TakesCellConv(values, weight, compute)) {
+    return ConvGradient(values, result, FoldKernel(weight), true,
+                        compute);  // looks at its shape only
   }
   CellConvTranspose({n, h, in, weight.size(0)}, values.contiguous(kChannelsLast).data_ptr<float>(),
                     Panels(weight, false).data(), result.data_ptr<float>());
@@ -106,9 +121,9 @@ at::Tensor ConvolveTransposed(const at::Tensor& values, const at::Tensor& weight
 
 // The gradient of sum(values * Convolve(cells, weight)) for the weight.
 at::Tensor WeightGradient(const at::Tensor& cells, const at::Tensor& values,
-                          const at::Tensor& weight) {
-  if (!TakesCellConv(cells, weight)) {
-    return UnfoldKernel(ConvGradient(values, cells, FoldKernel(weight), false));
+                          const at::Tensor& weight, at::ScalarType compute) {
+  if (!TakesCellConv(cells, weight, compute)) {
+    return UnfoldKernel(ConvGradient(values, cells, FoldKernel(weight), false, compute));
   }
   const CellConvShape shape{cells.size(0), cells.size(2), cells.size(1), weight.size(0)};
   std::vector<float> gradient(8 * shape.in * shape.out);
@@ -127,42 +142,52 @@ at::Tensor WeightGradient(const at::Tensor& cells, const at::Tensor& values,
   return result;
 }
 
+at::ScalarType SavedType(const AutogradContext& ctx) {
+  return static_cast<at::ScalarType>(ctx.saved_data.at("compute").toInt());
+}
+
 struct DownConvFunction : Function<DownConvFunction> {
   static at::Tensor forward(AutogradContext* ctx, const at::Tensor& cells, const at::Tensor& weight,
-                            const at::Tensor& bias) {
+                            const at::Tensor& bias, at::ScalarType compute) {
     ctx->save_for_backward({cells, weight});
-    return Convolve(cells, weight, bias);
+    ctx->saved_data["compute"] = static_cast<std::int64_t>(compute);
+    return Convolve(cells, weight, bias, compute);
   }
   static variable_list backward(AutogradContext* ctx, variable_list grads) {
     const variable_list saved = ctx->get_saved_variables();
+    const at::ScalarType compute = SavedType(*ctx);
     at::Tensor input, weight, bias;
-    if (ctx->needs_input_grad(0)) input = ConvolveTransposed(grads[0], saved[1]);
-    if (ctx->needs_input_grad(1)) weight = WeightGradient(saved[0], grads[0], saved[1]);
+    if (ctx->needs_input_grad(0)) input = ConvolveTransposed(grads[0], saved[1], compute);
+    if (ctx->needs_input_grad(1)) weight = WeightGradient(saved[0], grads[0], saved[1], compute);
     if (ctx->needs_input_grad(2)) bias = grads[0].sum(at::IntArrayRef({0, 2, 3, 4}));
-    return {input, weight, bias};
+    return {input, weight, bias, at::Tensor()};
   }
 };
 
 struct UpConvFunction : Function<UpConvFunction> {
-  static at::Tensor forward(AutogradContext* ctx, const at::Tensor& x, const at::Tensor& weight) {
+  static at::Tensor forward(AutogradContext* ctx, const at::Tensor& x, const at::Tensor& weight,
+                            at::ScalarType compute) {
     ctx->save_for_backward({x, weight});
-    return ConvolveTransposed(x, weight);
+    ctx->saved_data["compute"] = static_cast<std::int64_t>(compute);
+    return ConvolveTransposed(x, weight, compute);
   }
   static variable_list backward(AutogradContext* ctx, variable_list grads) {
     const variable_list saved = ctx->get_saved_variables();
-    return {Convolve(grads[0], saved[1], {}), WeightGradient(grads[0], saved[0], saved[1])};
+    const at::ScalarType compute = SavedType(*ctx);
+    return {Convolve(grads[0], saved[1], {}, compute),
+            WeightGradient(grads[0], saved[0], saved[1], compute), at::Tensor()};
   }
 };
 
 }  // namespace
 
 torch::Tensor DownConv(const torch::Tensor& folded, const torch::Tensor& weight,
-                       const torch::Tensor& bias) {
-  return DownConvFunction::apply(folded, weight, bias);
+                       const torch::Tensor& bias, at::ScalarType compute) {
+  return DownConvFunction::apply(folded, weight, bias, compute);
 }
 
-torch::Tensor UpConv(const torch::Tensor& x, const torch::Tensor& weight) {
-  return UpConvFunction::apply(x, weight);
+torch::Tensor UpConv(const torch::Tensor& x, const torch::Tensor& weight, at::ScalarType compute) {
+  return UpConvFunction::apply(x, weight, compute);
 }
 
 }  // namespace antigrasp

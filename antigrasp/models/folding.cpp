@@ -117,6 +117,29 @@ struct BlurAndClearRingFunction : Function<BlurAndClearRingFunction> {
   }
 };
 
+// I - gain L with the Laplacian of a grid that ends: a symmetric matrix.
+at::Tensor EmphasizeValues(const at::Tensor& folded, double gain) {
+  const at::Tensor x = UnfoldValues(folded);
+  at::Tensor result = x.clone();
+  for (std::int64_t axis = 2; axis < 5; ++axis) {
+    const std::int64_t s = x.size(axis);
+    const at::Tensor step = at::sub(x.slice(axis, 1, s), x.slice(axis, 0, s - 1)).mul_(gain);
+    result.slice(axis, 0, s - 1).sub_(step);
+    result.slice(axis, 1, s).add_(step);
+  }
+  return FoldValues(result);
+}
+
+struct EmphasizeFunction : Function<EmphasizeFunction> {
+  static at::Tensor forward(AutogradContext* ctx, const at::Tensor& folded, double gain) {
+    ctx->saved_data["gain"] = gain;
+    return EmphasizeValues(folded, gain);
+  }
+  static variable_list backward(AutogradContext* ctx, variable_list grads) {
+    return {EmphasizeValues(grads[0], ctx->saved_data["gain"].toDouble()), at::Tensor()};
+  }
+};
+
 }  // namespace
 
 torch::Tensor Fold(const torch::Tensor& grid) { return FoldFunction::apply(grid); }
@@ -124,6 +147,10 @@ torch::Tensor Unfold(const torch::Tensor& folded) { return UnfoldFunction::apply
 
 torch::Tensor BlurAndClearRing(const torch::Tensor& folded, bool blur) {
   return BlurAndClearRingFunction::apply(folded, blur);
+}
+
+torch::Tensor EmphasizeEdges(const torch::Tensor& folded, double gain) {
+  return gain > 0.0 ? EmphasizeFunction::apply(folded, gain) : folded;
 }
 
 }  // namespace antigrasp

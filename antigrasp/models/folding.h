@@ -18,17 +18,23 @@ torch::Tensor Fold(const torch::Tensor& grid);
 torch::Tensor Unfold(const torch::Tensor& folded);
 
 // conv3d of the unfolded grid, stride 2, padding 1: weight [out, in, 4, 4, 4], bias [out].
-// folded [N, 8 in, h, h, h] -> [N, out, h - 1, h - 1, h - 1].
+// folded [N, 8 in, h, h, h] -> [N, out, h - 1, h - 1, h - 1]. `compute`: the type in which products
+// are taken (float or bfloat16); tensors in and out are float.
 torch::Tensor DownConv(const torch::Tensor& folded, const torch::Tensor& weight,
-                       const torch::Tensor& bias);
+                       const torch::Tensor& bias, at::ScalarType compute = at::kFloat);
 
 // conv_transpose3d, stride 2, folded: weight [in, out, 4, 4, 4], no bias.
 // x [N, in, s, s, s] -> [N, 8 out, s + 1, s + 1, s + 1]. Unfolded it is the layer with padding 1;
 // the ring holds what a padding of 0 adds.
-torch::Tensor UpConv(const torch::Tensor& x, const torch::Tensor& weight);
+torch::Tensor UpConv(const torch::Tensor& x, const torch::Tensor& weight,
+                     at::ScalarType compute = at::kFloat);
 
 // Smooths with [1 2 1]/4 along each axis (zero beyond the ring) if `blur`, then zeroes the ring.
 // [N, 8, 17, 17, 17].
 torch::Tensor BlurAndClearRing(const torch::Tensor& folded, bool blur);
+
+// x - gain * Laplacian(x) on the unfolded one-channel grid, nodes beyond it being equal to the
+// outermost; the ring stays zero. [N, 8, 17, 17, 17].
+torch::Tensor EmphasizeEdges(const torch::Tensor& folded, double gain);
 
 }  // namespace antigrasp

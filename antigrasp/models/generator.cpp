@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "antigrasp/models/folding.h"
+#include "antigrasp/models/libtorch.h"
 #include "antigrasp/models/random_tensor.h"
 
 namespace antigrasp {
@@ -89,7 +90,7 @@ void GeneratorImpl::Initialize(RngStream* rng) {
 void GeneratorImpl::RestartStatistics() {
   for (auto* norms : {&norms_, &refine_norms_}) {
     for (torch::nn::BatchNorm3d& norm : *norms) {
-      norm->options.momentum(c10::nullopt);
+      norm->options.momentum(kCumulativeMomentum);
       norm->reset_running_stats();
     }
   }
@@ -107,13 +108,14 @@ torch::Tensor GeneratorImpl::Refine(std::size_t level, const torch::Tensor& x) {
 }
 
 torch::Tensor GeneratorImpl::ForwardFolded(const torch::Tensor& z) {
+  const at::ScalarType compute = ConvolutionType(options_);
   torch::Tensor x = project_(z).view({-1, 8 * options_.width, 2, 2, 2});
-  x = Activate(0, x);                                             // [N, 8c, 2, 2, 2]
-  x = Refine(0, Activate(1, Unfold(UpConv(x, up_weights_[0]))));  // [N, 4c, 4, 4, 4]
-  x = Refine(1, Activate(2, Unfold(UpConv(x, up_weights_[1]))));  // [N, 2c, 8, 8, 8]
-  x = Refine(2, Activate(3, Unfold(UpConv(x, up_weights_[2]))));  // [N, c, 16, 16, 16]
-  x = UpConv(x, last_weight_) + last_bias_;                       // [N, 8, 17, 17, 17]
-  return BlurAndClearRing(x, options_.output_blur).tanh();        // [N, 8, 17, 17, 17]
+  x = Activate(0, x);                                                      // [N, 8c, 2, 2, 2]
+  x = Refine(0, Activate(1, Unfold(UpConv(x, up_weights_[0], compute))));  // [N, 4c, 4, 4, 4]
+  x = Refine(1, Activate(2, Unfold(UpConv(x, up_weights_[1], compute))));  // [N, 2c, 8, 8, 8]
+  x = Refine(2, Activate(3, Unfold(UpConv(x, up_weights_[2], compute))));  // [N, c, 16, 16, 16]
+  x = UpConv(x, last_weight_, compute) + last_bias_;                       // [N, 8, 17, 17, 17]
+  return BlurAndClearRing(x, options_.output_blur).tanh();                 // [N, 8, 17, 17, 17]
 }
 
 torch::Tensor GeneratorImpl::forward(const torch::Tensor& z) {

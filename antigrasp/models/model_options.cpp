@@ -23,10 +23,16 @@ void Bind(OptionTable* table, ModelOptions* options) {
   table->Add("model.batch_norm", &options->batch_norm, "batch normalisation in the generator");
   table->Add("model.output_blur", &options->output_blur,
              "smooth the generator's output with [1 2 1]/4 along each axis, before tanh");
+  table->Add("model.edge_gain", &options->edge_gain, 0, 100,
+             "the discriminator sees x - edge_gain * Laplacian(x), so that bumps stand out; 0 = x");
+  table->Add("model.squash", &options->squash, {"clamp", "tanh"},
+             "how distances beyond the truncation are cut off");
   table->Add("model.truncation", &options->truncation, 0, 1,
              "distance that a network value of 1 stands for, unit cube; 0 = raw distances");
   table->Add("model.raw_scale", &options->raw_scale, 0.01, 100,
              "network value per unit of distance when truncation = 0");
+  table->Add("model.precision", &options->precision, {"float32", "bfloat16"},
+             "of the convolutions' products; bfloat16 for CUDA and CPUs with AVX512_BF16");
 }
 
 }  // namespace antigrasp

@@ -25,10 +25,18 @@ struct ModelOptions {
   std::string block = "plain";
   bool batch_norm = true;   // in the generator
   bool output_blur = true;  // [1 2 1]/4 before tanh
+  // The discriminator sees x - edge_gain * Laplacian(x), by nodes: creases and bumps stand out that
+  // its bounded slope would overlook (folding.h). 0 = x itself, as in the paper.
+  double edge_gain = 0.0;
+  // "clamp": v = clamp(d / truncation, -1, 1); "tanh": v = tanh(d / truncation), no kink.
+  std::string squash = "clamp";
   // A network value v stands for the distance truncation * v, clamped; 0 = raw distances times
   // raw_scale.
   double truncation = 0.1;
   double raw_scale = 1.0;
+  // In which the convolutions with stride multiply; sums, weights and all else stay float32.
+  // "bfloat16" is for devices that have it: CUDA, CPUs with AVX512_BF16.
+  std::string precision = "float32";
 };
 
 void Bind(OptionTable* table, ModelOptions* options);  // keys "model.*"

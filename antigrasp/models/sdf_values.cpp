@@ -2,8 +2,12 @@
 
 #include <ATen/ATen.h>
 
+#include <cmath>
+
 namespace antigrasp {
 namespace {
+
+constexpr double kLargestTanh = 0.9999;  // atanh of it is 5; beyond, rounding decides
 
 double ValuePerDistance(const ModelOptions& options) {
   return options.truncation > 0.0 ? 1.0 / options.truncation : options.raw_scale;
@@ -12,11 +16,18 @@ double ValuePerDistance(const ModelOptions& options) {
 }  // namespace
 
 at::Tensor NetworkValues(const at::Tensor& distances, const ModelOptions& options) {
-  return at::mul(distances, ValuePerDistance(options)).clamp_(-1.0, 1.0);
+  const at::Tensor values = at::mul(distances, ValuePerDistance(options));
+  return options.squash == "tanh" ? at::tanh(values) : at::clamp(values, -1.0, 1.0);
 }
 
 at::Tensor Distances(const at::Tensor& network_values, const ModelOptions& options) {
-  return at::div(network_values, ValuePerDistance(options));
+  if (options.squash == "clamp") return at::div(network_values, ValuePerDistance(options));
+  return at::atanh(network_values.clamp(-kLargestTanh, kLargestTanh))
+      .div_(ValuePerDistance(options));
+}
+
+double LargestDistance(const ModelOptions& options) {
+  return (options.squash == "tanh" ? std::atanh(kLargestTanh) : 1.0) / ValuePerDistance(options);
 }
 
 }  // namespace antigrasp

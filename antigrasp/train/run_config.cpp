@@ -22,6 +22,8 @@ void Bind(OptionTable* table, CemOptions* o) {
   table->Add("cem.select", &o->select, {"graspability", "random"},
              "keep the least graspable, or random ones (the control)");
   table->Add("cem.restart", &o->restart, "fresh networks each episode instead of going on");
+  table->Add("cem.redistance", &o->redistance,
+             "train on the exact distances to the elites' meshes, not on the generator's values");
   table->Add("cem.prior_fraction", &o->prior_fraction, 0, 10,
              "prior shapes mixed into the elites, as a share of cem.keep");
   table->Add("cem.check_self_intersection", &o->check_self_intersection,

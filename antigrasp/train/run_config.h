@@ -27,7 +27,9 @@ struct CemOptions {
   double least_deviation = 0.2;   // latent mode: of every component, so that it goes on exploring
   std::string select = "graspability";  // or "random": the control run
   bool restart = false;                 // fresh networks each episode instead of going on
-  double prior_fraction = 0.0;          // prior shapes mixed into the elites, as a share of `keep`
+  // Elites are learnt from as the exact distances to their meshes, not as what the generator drew.
+  bool redistance = false;
+  double prior_fraction = 0.0;  // prior shapes mixed into the elites, as a share of `keep`
   bool check_self_intersection = true;
   bool control = false;        // also run the random-keep control from the same episode 0
   int prior_scored = 500;      // prior shapes scored for kappa; 0 = all

@@ -12,6 +12,7 @@
 #include "antigrasp/core/rng.h"
 #include "antigrasp/mesh/fit.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/models/sdf_values.h"
 #include "antigrasp/render/contact_sheet.h"
 #include "antigrasp/train/elites.h"
 
@@ -97,7 +98,7 @@ void WriteElites(const std::filesystem::path& path, const ScoredStage& scored,
   ShapeSet set;
   set.kind = "elites";
   set.seed = config.seed;
-  set.truncation = config.model.truncation;
+  set.truncation = LargestDistance(config.model);
   set.provenance = "antigrasp train, episode " + std::to_string(episode) + ", " +
                    (config.cem.select == "random" ? "random samples" : "least graspable samples");
   for (const std::int64_t i : elites) {

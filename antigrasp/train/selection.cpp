@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "antigrasp/core/rng.h"
+#include "antigrasp/sdf/mesh_to_sdf.h"
 #include "antigrasp/train/elites.h"
 
 namespace antigrasp {
@@ -32,6 +33,19 @@ std::vector<std::int64_t> Every(std::int64_t count) {
 
 torch::Tensor Rows(const torch::Tensor& values, const std::vector<std::int64_t>& indices) {
   return values.index_select(0, torch::tensor(indices, torch::kLong));
+}
+
+// Network values of the distances to the meshes. What a grid holds far from its surface, or never
+// closed into one, is gone.
+torch::Tensor ExactValues(const ScoredStage& scored, const std::vector<std::int64_t>& indices,
+                          const RunConfig& config) {
+  ShapeSet exact;
+  exact.grids.assign(indices.size(), UnitCubeGrid(config.model.resolution));
+  ParallelFor(static_cast<std::int64_t>(indices.size()), config.threads, [&](std::int64_t i) {
+    const auto object = static_cast<std::size_t>(indices[static_cast<std::size_t>(i)]);
+    MeshToSdf(scored.objects[object].mesh, &exact.grids[static_cast<std::size_t>(i)]);
+  });
+  return NetworkValuesOf(exact, config.model, "the elites");
 }
 
 }  // namespace
@@ -91,7 +105,9 @@ Selection EliteSelector::Select(const ScoredStage& scored, int episode) const {
 
 torch::Tensor EliteSelector::TrainingSet(const ScoredStage& scored,
                                          const Selection& selection) const {
-  const torch::Tensor kept = Rows(scored.values, selection.elites).to(torch::kHalf);
+  const torch::Tensor kept = config_.cem.redistance
+                                 ? ExactValues(scored, selection.elites, config_)
+                                 : Rows(scored.values, selection.elites).to(torch::kHalf);
   if (selection.replayed.empty()) return kept;
   return torch::cat({kept, Rows(prior_, selection.replayed)});
 }

@@ -62,7 +62,7 @@ TEST(Cli, RefusesBadInputInOneLineAndWritesNothing) {
   ExpectRefused("train " + kSmoke + " --out " + dir + "run --device toaster", "toaster");
   ExpectRefused("train " + kSmoke, "--out");
   ExpectRefused("sample " + dir + "not.h5 --out " + dir + "s.h5", "not a checkpoint");
-  ExpectRefused("sample " + dir + "none.pt --out " + dir + "s.h5", "no such file");
+  ExpectRefused("sample " + dir + "none.pt --out " + dir + "s.h5", "no such networks");
   ExpectRefused("remesh " + dir + "not.h5 --out " + dir + "m", "not.h5");
   ExpectRefused("evaluate " + dir + "not.h5", "not.h5");
   ExpectRefused("evaluate " + dir + "missing.stl", "missing.stl");

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <torch/torch.h>
 
+#include <array>
+
 #include "antigrasp/core/rng.h"
 #include "antigrasp/models/random_tensor.h"
 
@@ -138,6 +140,29 @@ TEST(Folding, ConvolutionsGiveTheSameBitsWithAnyNumberOfThreads) {
     }
   }
   at::set_num_threads(threads_before);
+}
+
+TEST(Folding, EmphasizeEdgesSubtractsTheLaplacianOfAGridThatEnds) {
+  const torch::Tensor grid = Normal({2, 1, 32, 32, 32}, 21);
+  const torch::Tensor edge = torch::replication_pad3d(grid, {1, 1, 1, 1, 1, 1});
+  torch::Tensor kernel = torch::zeros({1, 1, 3, 3, 3});
+  kernel.index_put_({0, 0, 1, 1, 1}, -6.0F);
+  for (const auto& [z, y, x] :
+       {std::array{0, 1, 1}, {2, 1, 1}, {1, 0, 1}, {1, 2, 1}, {1, 1, 0}, {1, 1, 2}}) {
+    kernel[0][0][z][y][x] = 1.0F;
+  }
+  const torch::Tensor expected = grid - 1.5 * torch::conv3d(edge, kernel);
+  EXPECT_LT(MaxDifference(Unfold(EmphasizeEdges(Fold(grid), 1.5)), expected), 1e-4);
+  EXPECT_TRUE(torch::equal(EmphasizeEdges(Fold(grid), 0.0), Fold(grid)));
+  const torch::Tensor constant = Fold(torch::full({1, 1, 32, 32, 32}, 0.5));
+  EXPECT_TRUE(torch::equal(EmphasizeEdges(constant, 3.0), constant));
+}
+
+TEST(Folding, EmphasizeEdgesIsItsOwnTranspose) {
+  torch::Tensor folded = Fold(Normal({1, 1, 32, 32, 32}, 22)).requires_grad_();
+  const torch::Tensor weight = Fold(Normal({1, 1, 32, 32, 32}, 23));
+  (EmphasizeEdges(folded, 2.0) * weight).sum().backward();
+  EXPECT_LT(MaxDifference(folded.grad(), EmphasizeEdges(weight, 2.0)), 1e-5);
 }
 
 TEST(Folding, BlurIsTheBinomialFilterOfTheUncroppedOutput) {

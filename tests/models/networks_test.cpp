@@ -193,6 +193,40 @@ TEST(ResidualBlocks, BeginAsASmallChangeAndReachEveryParameter) {
   }
 }
 
+TEST(Discriminator, WithAnEdgeGainSeesTheSharpenedGrid) {
+  ModelOptions model = TinyModel();
+  Discriminator plain(model);
+  model.edge_gain = 2.0;
+  Discriminator sharpening(model);  // the same weights
+  plain->eval();
+  sharpening->eval();
+  const torch::Tensor grid = Latent(4, 32 * 32 * 32).view({4, 1, 32, 32, 32});
+  const torch::Tensor sharpened = Unfold(EmphasizeEdges(Fold(grid), 2.0));
+  EXPECT_TRUE(torch::allclose(sharpening(grid), plain(sharpened)));
+  EXPECT_FALSE(torch::allclose(sharpening(grid), plain(grid), 1e-3, 1e-3));
+}
+
+TEST(Networks, InBfloat16DifferFromFloatByItsRounding) {
+  ModelOptions model = TinyModel();
+  Generator exact(model);
+  Discriminator exact_judge(model);
+  model.precision = "bfloat16";
+  Generator rounded(model);
+  Discriminator rounded_judge(model);
+  torch::Tensor z = Latent(4, model.latent);
+  const torch::Tensor a = exact(z), b = rounded(z);
+  EXPECT_EQ(b.scalar_type(), torch::kFloat);
+  const double apart = (a - b).abs().max().item<double>();
+  EXPECT_GT(apart, 0.0);
+  EXPECT_LT(apart, 0.05);
+  const auto gradient = [&](Discriminator& judge) {
+    torch::Tensor input = a.detach().clone().requires_grad_();
+    return torch::autograd::grad({judge(input).sum()}, {input})[0];
+  };
+  const torch::Tensor g = gradient(exact_judge), h = gradient(rounded_judge);
+  EXPECT_LT((g - h).norm().item<double>(), 0.02 * g.norm().item<double>());
+}
+
 TEST(Discriminator, SpectralNormBoundsItsSlope) {
   // Every layer has a stretch of at most 1 per patch; each node is in 2^3 patches of a strided
   // kernel of 4, so a convolution stretches by at most sqrt(8): four of them by 64.
@@ -214,6 +248,17 @@ TEST(SdfValues, TruncationClampsAndComesBack) {
                               torch::tensor({-1.0, -1.0, -0.5, 0.0, 0.25, 1.0})));
   EXPECT_TRUE(torch::allclose(Distances(NetworkValues(distances, options), options),
                               distances.clamp(-0.1, 0.1)));
+}
+
+TEST(SdfValues, TanhIsSmoothAndComesBackFurtherOut) {
+  ModelOptions options;
+  options.truncation = 0.1;
+  options.squash = "tanh";
+  EXPECT_NEAR(LargestDistance(options), 0.495, 0.001);
+  const torch::Tensor distances = torch::tensor({-0.7, -0.3, -0.05, 0.0, 0.025, 0.3});
+  const torch::Tensor values = NetworkValues(distances, options);
+  EXPECT_TRUE(torch::allclose(values, torch::tanh(distances / 0.1)));
+  EXPECT_TRUE(torch::allclose(Distances(values, options), distances.clamp_min(-0.49517), 1e-3));
 }
 
 TEST(SdfValues, RawDistancesAreScaled) {

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <set>
 
+#include "antigrasp/sdf/remesh.h"
+#include "antigrasp/sdf/sdf_grid.h"
+
 namespace antigrasp {
 namespace {
 
@@ -31,6 +34,18 @@ ScoredStage Stage() {
   scored.values = torch::cat({Family(0, 20, 0.02), Family(1, 4, 0.02)});
   for (int i = 0; i < 24; ++i) scored.graspabilities.push_back(0.001 * (i + 1));
   return scored;
+}
+
+SdfGrid Ball(double radius) {
+  SdfGrid grid = UnitCubeGrid();
+  for (int z = 0; z < grid.n; ++z) {
+    for (int y = 0; y < grid.n; ++y) {
+      for (int x = 0; x < grid.n; ++x) {
+        grid.values[grid.Index(x, y, z)] = static_cast<float>(radius - grid.Node(x, y, z).norm());
+      }
+    }
+  }
+  return grid;
 }
 
 RunConfig Config(const std::string& variant) {
@@ -77,6 +92,26 @@ TEST(EliteSelector, MixesInTheAskedShareOfThePriorSet) {
   EXPECT_EQ(std::set<std::int64_t>(first.replayed.begin(), first.replayed.end()).size(), 4U);
   EXPECT_NE(first.replayed, second.replayed) << "every episode draws anew";
   EXPECT_EQ(selector.TrainingSet(Stage(), first).size(0), 12);
+}
+
+TEST(EliteSelector, RedistancesElitesToTheirMeshes) {
+  RunConfig config;
+  config.cem.samples = config.cem.keep = 1;
+  config.cem.redistance = true;
+  const SdfGrid ball = Ball(0.3);
+  ScoredStage scored;
+  SdfGrid steep = ball;  // the same surface, values four times too large
+  for (float& value : steep.values) value *= 4.0F;
+  scored.values = NetworkValuesOf({.grids = {steep}}, config.model, "");
+  scored.objects = {Remesh(steep)};
+  scored.graspabilities = {0.001};
+  const torch::Tensor prior = NetworkValuesOf({.grids = {ball}}, config.model, "");
+  const EliteSelector selector(config, prior);
+  const Selection selection = selector.Select(scored, 0);
+  const torch::Tensor learnt = selector.TrainingSet(scored, selection);
+  EXPECT_EQ(learnt.scalar_type(), torch::kHalf);
+  EXPECT_LT((learnt - prior).abs().max().item<double>(), 0.03);  // of 0.1: 0.003 of the cube
+  EXPECT_GT((scored.values - prior).abs().max().item<double>(), 0.5);
 }
 
 TEST(EliteSelector, OfTheControlDrawsOtherElitesInEveryEpisode) {
