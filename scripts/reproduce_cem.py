@@ -14,7 +14,7 @@ COMMON = [f"prior.kind={KIND}", f"cem.episodes={EPISODES}", "cem.samples=1000", 
 WAYS = {
     "paper": ("the least graspable of all (V-B)", []),
     "stratified": ("the least graspable of every cell of the prior", ["cem.variant=stratified", "cem.cells=40"]),
-    "latent": ("fixed networks, mixture of z fitted to the least graspable", ["cem.mode=latent"]),
+    "latent": ("fixed networks, z drawn around that of the least graspable", ["cem.mode=latent"]),
     "control": ("random ones", ["cem.select=random"]),
 }
 COLOURS = {"paper": "#b2182b", "stratified": "#2166ac", "latent": "#1b7837", "control": "0.5"}

@@ -6,8 +6,6 @@ void Bind(OptionTable* table, ModelOptions* options) {
   table->Add("model.width", &options->width, 1, 256,
              "channels of the generator's last hidden layer (16^3); 8 for two cores, 64 for a GPU");
   table->Add("model.latent", &options->latent, 1, 4096, "length of the noise vector z");
-  table->Add("model.components", &options->components, 1, 1000,
-             "Gaussians of the mixture of z; all N(0, I) until latent-space CEM moves them");
   table->Add("model.resolution", &options->resolution, 32, 32, "nodes along one side of the grid");
   table->Add("model.spectral_norm", &options->spectral_norm,
              "divide the discriminator's weights by their largest singular value");

@@ -10,7 +10,6 @@ namespace antigrasp {
 struct ModelOptions {
   int width = 8;              // c: channels of the generator's last hidden layer at 16^3
   int latent = 200;           // z in R^200 (paper V-A)
-  int components = 8;         // Gaussians of the mixture of z: all N(0, I) but in latent-space CEM
   int resolution = 32;        // 32 only
   bool spectral_norm = true;  // on the discriminator; off reproduces VI-D
   // Shapes that the discriminator judges together, as channels of one input (PacGAN, Lin et al.,

@@ -84,7 +84,7 @@ void AveragedGenerator::RefreshStatistics() {
   if (!statistics_stale_) return;
   statistics_stale_ = false;
   if (!options_.batch_norm) return;
-  const LatentMixture standard = StandardNormal(options_.components, options_.latent);
+  const LatentMixture standard = StandardNormal(options_.latent);
   network_->RestartStatistics();
   network_->train();
   for (std::int64_t block = 0; block < kStatisticsBlocks; ++block) {

@@ -223,11 +223,10 @@ void EpisodeLoop::Record(const ScoredStage& scored, const Selection& selection) 
 void EpisodeLoop::BeginEpisode(int episode, const ScoredStage& scored, const Selection& selection) {
   losses_.clear();
   if (config_.cem.mode == "latent") {
-    RngStream rng(config_.seed, "mixture", static_cast<std::uint64_t>(episode));
     const torch::Tensor z = trainer_.Latents(SampleSeed(), 0, config_.cem.samples)
                                 .index_select(0, torch::tensor(selection.elites, torch::kLong));
-    trainer_.BeginFixedEpisode(episode, FitToElites(trainer_.latent(), z, config_.cem.smoothing,
-                                                    config_.cem.least_deviation, &rng));
+    trainer_.BeginFixedEpisode(episode,
+                               AroundElites(z, config_.cem.step, config_.cem.prior_fraction));
   } else {
     shapes_ = selector_.TrainingSet(scored, selection);
     trainer_.BeginEpisode(episode, config_.cem.iterations, config_.cem.restart);

@@ -39,10 +39,12 @@ struct GanTrainer::Impl {
   double FiniteNorm(const std::vector<torch::Tensor>& gradients) const;
   double LearningRateFactor() const;
   double AverageDecay() const;
-  NamedTensors State(const torch::Tensor& progress) const;
+  NamedTensors State(const torch::Tensor& progress, const LatentMixture& mixture) const;
   torch::Tensor Progress() const;  // [3] int64: episode, iterations, step
   void SetProgress(const torch::Tensor& progress);
-  NamedTensors Networks() const;  // without what only goes on training needs
+  LatentMixture MixtureToRead(torch::serialize::InputArchive* archive) const;
+  NamedTensors Networks(
+      const LatentMixture& mixture) const;  // without what only goes on training needs
 
   ModelOptions model;
   GanOptions options;
@@ -70,7 +72,7 @@ GanTrainer::Impl::Impl(const ModelOptions& model_options, const GanOptions& gan_
                      options.beta2),
       adam_discriminator((discriminator->to(device), discriminator->parameters()), options.beta1,
                          options.beta2),
-      latent(StandardNormal(model.components, model.latent)) {
+      latent(StandardNormal(model.latent)) {
   RestartNetworks(0);
 }
 
@@ -155,14 +157,15 @@ double GanTrainer::Impl::AverageDecay() const {
   return std::min(target, (1.0 + t) / (10.0 + t));
 }
 
-NamedTensors GanTrainer::Impl::State(const torch::Tensor& progress) const {
+NamedTensors GanTrainer::Impl::State(const torch::Tensor& progress,
+                                     const LatentMixture& mixture) const {
   NamedTensors state;
   AppendModule("generator/", *generator, &state);
   AppendModule("discriminator/", *discriminator, &state);
   AppendModule("average/", *average.network(), &state);
   AppendAdam("adam_generator/", adam_generator, &state);
   AppendAdam("adam_discriminator/", adam_discriminator, &state);
-  AppendMixture("latent/", latent, &state);
+  AppendMixture("latent/", mixture, &state);
   state.emplace_back("progress", progress);
   return state;
 }
@@ -178,11 +181,19 @@ void GanTrainer::Impl::SetProgress(const torch::Tensor& progress) {
   average.WeightsChanged();
 }
 
-NamedTensors GanTrainer::Impl::Networks() const {
+// With as many components as the archive has; what it lacks is refused when it is read.
+LatentMixture GanTrainer::Impl::MixtureToRead(torch::serialize::InputArchive* archive) const {
+  torch::Tensor weights;
+  const bool there = archive->try_read("latent/weights", weights, /*is_buffer=*/true);
+  const std::int64_t n = there && weights.dim() == 1 ? weights.size(0) : 1;
+  return {torch::empty({n}), torch::empty({n, model.latent}), torch::empty({n, model.latent})};
+}
+
+NamedTensors GanTrainer::Impl::Networks(const LatentMixture& mixture) const {
   NamedTensors networks;
   AppendModule("discriminator/", *discriminator, &networks);
   AppendModule("average/", *average.network(), &networks);
-  AppendMixture("latent/", latent, &networks);
+  AppendMixture("latent/", mixture, &networks);
   return networks;
 }
 
@@ -205,7 +216,7 @@ void GanTrainer::BeginEpisode(int episode, std::int64_t iterations, bool restart
   t.episode = episode;
   t.iterations = iterations;
   t.step = 0;
-  t.latent = StandardNormal(t.model.components, t.model.latent);
+  t.latent = StandardNormal(t.model.latent);
   t.average.Follow(t.generator, /*decay=*/0.0);
 }
 
@@ -257,7 +268,7 @@ torch::Tensor GanTrainer::Sample(std::uint64_t seed, std::int64_t first, std::in
 const LatentMixture& GanTrainer::latent() const { return impl_->latent; }
 
 void GanTrainer::SaveNetworks(torch::serialize::OutputArchive* archive) const {
-  NamedTensors networks = impl_->Networks();
+  NamedTensors networks = impl_->Networks(impl_->latent);
   for (auto& [name, tensor] : networks) {
     if (tensor.is_floating_point()) tensor = tensor.to(torch::kHalf);
   }
@@ -266,14 +277,12 @@ void GanTrainer::SaveNetworks(torch::serialize::OutputArchive* archive) const {
 }
 
 void GanTrainer::LoadNetworks(torch::serialize::InputArchive* archive) {
-  NamedTensors networks = impl_->Networks();
-  torch::Tensor ignored;
-  if (!archive->try_read("latent/weights", ignored, /*is_buffer=*/true)) {
-    networks.resize(networks.size() - 3);  // older than latent-space CEM: z is N(0, I)
-  }
+  const LatentMixture mixture = impl_->MixtureToRead(archive);
+  NamedTensors networks = impl_->Networks(mixture);
   const torch::Tensor progress = torch::zeros({3}, torch::kLong);
   networks.emplace_back("progress", progress);
   ReadTensors(networks, "checkpoint", archive);
+  impl_->latent = mixture;
   impl_->SetProgress(progress);
   torch::NoGradGuard no_grad;
   const auto from = impl_->average.network()->parameters();
@@ -282,12 +291,14 @@ void GanTrainer::LoadNetworks(torch::serialize::InputArchive* archive) {
 }
 
 void GanTrainer::Save(torch::serialize::OutputArchive* archive) const {
-  WriteTensors(impl_->State(impl_->Progress()), archive);
+  WriteTensors(impl_->State(impl_->Progress(), impl_->latent), archive);
 }
 
 void GanTrainer::Load(torch::serialize::InputArchive* archive) {
   const torch::Tensor progress = torch::zeros({3}, torch::kLong);
-  ReadTensors(impl_->State(progress), "checkpoint", archive);
+  const LatentMixture mixture = impl_->MixtureToRead(archive);
+  ReadTensors(impl_->State(progress, mixture), "checkpoint", archive);
+  impl_->latent = mixture;
   impl_->SetProgress(progress);
 }
 

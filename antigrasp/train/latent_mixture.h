@@ -16,19 +16,18 @@ struct LatentMixture {
   torch::Tensor deviations;  // [components, latent], > 0
 };
 
-// Every component N(0, I), equal weights.
-LatentMixture StandardNormal(std::int64_t components, std::int64_t latent);
+LatentMixture StandardNormal(std::int64_t latent);  // one component
 
 // z [latent] from a stream: the normals first, then the component, so that equal streams give
 // similar z under similar mixtures (common random numbers).
 torch::Tensor DrawLatent(const LatentMixture& mixture, RngStream* rng);
 
-// One step of the cross-entropy method (Rubinstein 1999) over z: expectation-maximisation of a
-// mixture on the elites [n, latent] from `before`'s component means displaced to distinct elites,
-// then `before` and the fit are averaged with weights 1 - smoothing and smoothing, and deviations
-// kept above `floor`. A component that no elite prefers keeps its parameters of `before`.
-// n >= 1. Cost: kIterations x n x components x latent, milliseconds.
-LatentMixture FitToElites(const LatentMixture& before, const torch::Tensor& elites,
-                          double smoothing, double floor, RngStream* rng);
+// One step of the cross-entropy method (Rubinstein 1999) over z: a kernel density around the elites
+// [n, latent], n >= 1. Component i draws sqrt(1 - step^2) elite_i + step N(0, I), 0 < step <= 1, so
+// that z of standard normal elites is standard normal again: the generator meets what it was
+// trained on. One more component, N(0, I), has `fresh` times the weight of all others together (0:
+// absent). A mixture of a few Gaussians fitted by expectation-maximisation hardly moved: 200 elites
+// say next to nothing about 200 dimensions.
+LatentMixture AroundElites(const torch::Tensor& elites, double step, double fresh);
 
 }  // namespace antigrasp

@@ -15,17 +15,15 @@ void Bind(OptionTable* table, CemOptions* o) {
   table->Add("cem.variant", &o->variant, {"paper", "stratified"},
              "elites: the least graspable of all, or of every cell of the prior set");
   table->Add("cem.cells", &o->cells, 1, 1e5, "cells of the stratified variant");
-  table->Add("cem.smoothing", &o->smoothing, 0, 1,
-             "latent mode: weight of the new fit in the next mixture of z");
-  table->Add("cem.least_deviation", &o->least_deviation, 1e-6, 1,
-             "latent mode: smallest standard deviation of z in a component");
+  table->Add("cem.step", &o->step, 1e-3, 1,
+             "latent mode: standard deviation of z around an elite's; 1 forgets the elites");
   table->Add("cem.select", &o->select, {"graspability", "random"},
              "keep the least graspable, or random ones (the control)");
   table->Add("cem.restart", &o->restart, "fresh networks each episode instead of going on");
   table->Add("cem.redistance", &o->redistance,
              "train on the exact distances to the elites' meshes, not on the generator's values");
   table->Add("cem.prior_fraction", &o->prior_fraction, 0, 10,
-             "prior shapes mixed into the elites, as a share of cem.keep");
+             "prior shapes (latent mode: fresh z) mixed into the elites, as a share of them");
   table->Add("cem.check_self_intersection", &o->check_self_intersection,
              "test every mesh for self-intersection");
   table->Add("cem.control", &o->control, "also run the random-keep control from episode 0");
@@ -76,6 +74,8 @@ RunConfig NetworksFromToml(const std::string& toml, const std::string& origin) {
   RunConfig config;
   OptionTable table;
   Bind(&table, &config);
+  int retired = 0;  // sized the mixture of z, which now has the size it was saved with
+  table.Add("model.components", &retired, 1, 1000, "");
   table.ApplyKnown(toml, origin, "model.");
   return config;
 }

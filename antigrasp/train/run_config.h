@@ -14,7 +14,7 @@ namespace antigrasp {
 // The cross-entropy loop of V-B and VI-C.
 struct CemOptions {
   // "gan": an episode retrains the GAN on the elites. "latent": it keeps the generator of episode 0
-  // and fits the mixture that z is drawn from to the elites' z (latent_mixture.h); minutes.
+  // and draws z around the elites' z (latent_mixture.h); minutes.
   std::string mode = "gan";
   int episodes = 3;               // resampling rounds after episode 0, the GAN of the prior set
   int prior_iterations = 16000;   // GAN updates in episode 0
@@ -23,8 +23,7 @@ struct CemOptions {
   int keep = 500;                 // elites: the least graspable of them
   std::string variant = "paper";  // or "stratified": elites shared out like the prior (selection.h)
   int cells = 100;                // of the stratified variant
-  double smoothing = 0.7;         // latent mode: weight of the new fit in the next mixture
-  double least_deviation = 0.2;   // latent mode: of every component, so that it goes on exploring
+  double step = 0.5;  // latent mode: how far z strays from an elite's (latent_mixture.h)
   std::string select = "graspability";  // or "random": the control run
   bool restart = false;                 // fresh networks each episode instead of going on
   // Elites are learnt from as the exact distances to their meshes, not as what the generator drew.

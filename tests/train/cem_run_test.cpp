@@ -168,7 +168,6 @@ TEST(CemRun, ReportsAFinishedRunWithoutDoingItAgain) {
 RunConfig Latent() {
   RunConfig config = Tiny();
   config.cem.mode = "latent";
-  config.model.components = 2;
   return config;
 }
 

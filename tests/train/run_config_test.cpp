@@ -25,6 +25,8 @@ TEST(RunConfig, ForSamplingKeysOfAnotherVersionAreLeftOutButNotThoseOfTheNetwork
   const std::string old = "[metric]\nbootstrap = 1000\n[model]\nwidth = 5\n";
   EXPECT_EQ(NetworksFromToml(old, "x").model.width, 5);
   EXPECT_THROW(FromToml(old, "x"), InputError);
+  EXPECT_EQ(NetworksFromToml("[model]\ncomponents = 8\nwidth = 5\n", "x").model.width, 5)
+      << "a key that is retired";
   EXPECT_THROW(NetworksFromToml("[model]\nattention = true\n", "x"), InputError);
   EXPECT_THROW(NetworksFromToml("[model]\nwidth = 0\n", "x"), InputError);
 }
@@ -40,7 +42,7 @@ TEST(RunConfig, HoldsThePapersNumbersByDefault) {
 }
 
 TEST(RunConfig, TheShippedFilesAreValid) {
-  for (const char* name : {"paper", "demo", "smoke"}) {
+  for (const char* name : {"paper", "demo", "smoke", "reproduction"}) {
     RunConfig config;
     OptionTable table;
     Bind(&table, &config);

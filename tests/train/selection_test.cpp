@@ -48,6 +48,12 @@ SdfGrid Ball(double radius) {
   return grid;
 }
 
+torch::Tensor ValuesOf(const SdfGrid& grid) {
+  ShapeSet set;
+  set.grids = {grid};
+  return NetworkValuesOf(set, ModelOptions(), "");
+}
+
 RunConfig Config(const std::string& variant) {
   RunConfig config;
   config.cem.variant = variant;
@@ -102,10 +108,10 @@ TEST(EliteSelector, RedistancesElitesToTheirMeshes) {
   ScoredStage scored;
   SdfGrid steep = ball;  // the same surface, values four times too large
   for (float& value : steep.values) value *= 4.0F;
-  scored.values = NetworkValuesOf({.grids = {steep}}, config.model, "");
+  scored.values = ValuesOf(steep);
   scored.objects = {Remesh(steep)};
   scored.graspabilities = {0.001};
-  const torch::Tensor prior = NetworkValuesOf({.grids = {ball}}, config.model, "");
+  const torch::Tensor prior = ValuesOf(ball);
   const EliteSelector selector(config, prior);
   const Selection selection = selector.Select(scored, 0);
   const torch::Tensor learnt = selector.TrainingSet(scored, selection);
