@@ -13,7 +13,7 @@ class Run:
     """A CEM + GAN run of the paper: the set, its resampling iterations and the reduction it reports, %."""
 
     def __init__(self, name, kind, episodes, paper, settings=()):
-        self.name, self.kind, self.episodes, self.paper = name, kind, episodes, paper
+        self.name, self.kind, self.episodes, self.paper, self.ships = name, kind, episodes, paper, name == kind
         self.settings = [f"prior.kind={kind}", f"cem.episodes={episodes}", *settings]
 
 
@@ -98,6 +98,17 @@ def summary(runs):
     return "\n".join(lines)
 
 
+def pretrained(runs):
+    """The networks that ship: of the prior set and of the last episode, float16."""
+    folder = pathlib.Path("checkpoints/pretrained")
+    folder.mkdir(parents=True, exist_ok=True)
+    for run, runs_folder in runs:
+        last = max(rows_of(runs_folder), default=-1)
+        if run.ships and last == run.episodes:
+            for episode, name in ((0, "prior"), (last, "adversarial")):
+                call("generator", runs_folder / f"episode_{episode}/checkpoint.pt", "--out", folder / f"{run.name}-{name}.pt")
+
+
 def document(runs, out):
     sections = []
     for run, folder in runs:
@@ -144,7 +155,9 @@ def main():
         if not arguments.report and arguments.only in (None, run.name):
             train(f"{run.name}: {run.episodes} resampling iterations and their control", arguments.out / run.name, run.settings)
     if arguments.report or not arguments.only:
-        document([(run, arguments.out / run.name) for run in RUNS], arguments.out)
+        runs = [(run, arguments.out / run.name) for run in RUNS]
+        document(runs, arguments.out)
+        pretrained(runs)
 
 
 if __name__ == "__main__":

@@ -5,11 +5,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/inspect.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/sdf/remesh.h"
 #include "tests/app/run_binary.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
@@ -243,6 +245,28 @@ TEST(Cli, ExportsSolidsInMillimetresAndLeavesTheRestOut) {
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.text.find("open.ply: open: 4 boundary edges"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "none"));
+}
+
+TEST(Cli, PretrainedNetworksAreSampledByNameAndMakeSolids) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  const Outcome unknown = Antigrasp("sample nobody-made-this --out " + dir + "x.h5");
+  std::set<std::string> names;
+  for (const auto& entry :
+       fs::directory_iterator(fs::path(ANTIGRASP_CONFIGS) / "../checkpoints/pretrained")) {
+    names.insert(entry.path().stem().string());
+  }
+  EXPECT_TRUE(names.contains("cylinders-prior"));
+  for (const std::string& name : names) {
+    EXPECT_NE(unknown.text.find(name), std::string::npos) << unknown.text;
+    const Outcome sample = Antigrasp("sample " + name + " --count 40 --out " + dir + "batch.h5");
+    ASSERT_EQ(sample.code, 0) << sample.text;
+    int solids = 0;
+    for (const SdfGrid& grid : ReadShapeSet(folder / "batch.h5").grids) {
+      solids += Remesh(grid).ok() ? 1 : 0;
+    }
+    EXPECT_GE(solids, 34) << name;
+  }
 }
 
 TEST(Cli, ARunCanBeKilledResumedSampledAndExported) {
