@@ -15,9 +15,11 @@ WAYS = {
     "paper": ("the least graspable of all (V-B)", []),
     "stratified": ("the least graspable of every cell of the prior", ["cem.variant=stratified", "cem.cells=40"]),
     "latent": ("fixed networks, z drawn around that of the least graspable", ["cem.mode=latent"]),
+    "latent stratified": ("the same, the least graspable of every cell of the prior",
+                          ["cem.mode=latent", "cem.variant=stratified", "cem.cells=40"]),
     "control": ("random ones", ["cem.select=random"]),
 }
-COLOURS = {"paper": "#b2182b", "stratified": "#2166ac", "latent": "#1b7837", "control": "0.5"}
+COLOURS = {"paper": "#b2182b", "stratified": "#2166ac", "latent": "#1b7837", "latent stratified": "#7fbf7b", "control": "0.5"}
 
 
 def table(folders):
@@ -82,7 +84,7 @@ def main():
     parser.add_argument("--report", action="store_true", help="train nothing; write what there is into the document")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("runs/cem"), help="folder of the runs")
     arguments = parser.parse_args()
-    folders = {way: arguments.out / way for way in WAYS}
+    folders = {way: arguments.out / way.replace(" ", "-") for way in WAYS}
     arguments.out.mkdir(parents=True, exist_ok=True)
     for way, (label, settings) in WAYS.items():
         if not arguments.report and arguments.only in (None, way):
