@@ -8,6 +8,7 @@
 #include "antigrasp/models/cell_conv.h"
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/libtorch.h"
+#include "antigrasp/models/winograd_conv.h"
 
 // A kernel of 4 with stride 2 on nodes is a kernel of 2 with stride 1 on cells: tap 2 s + p of an
 // axis links the phase p of a cell to the value s cells before it.
@@ -99,9 +100,15 @@ at::Tensor Convolve(const at::Tensor& cells, const at::Tensor& weight, const at:
   const at::Tensor b = bias.defined() ? bias.contiguous() : bias;
   const CellConvShape shape{x.size(0), x.size(2), x.size(1), weight.size(0)};
   const std::int64_t g = shape.h - 1;
+  const float* bias_values = b.defined() ? b.data_ptr<float>() : nullptr;
   at::Tensor result = at::empty({shape.count, shape.out, g, g, g}, x.options(), kChannelsLast);
-  CellConv(shape, x.data_ptr<float>(), Panels(weight, true).data(),
-           b.defined() ? b.data_ptr<float>() : nullptr, result.data_ptr<float>());
+  if (SuitsWinograd(shape)) {
+    WinogradConv(shape, x.data_ptr<float>(), weight.contiguous().data_ptr<float>(), bias_values,
+                 result.data_ptr<float>());
+  } else {
+    CellConv(shape, x.data_ptr<float>(), Panels(weight, true).data(), bias_values,
+             result.data_ptr<float>());
+  }
   return result;
 }
 
@@ -114,8 +121,15 @@ at::Tensor ConvolveTransposed(const at::Tensor& values, const at::Tensor& weight
     return ConvGradient(values, result, FoldKernel(weight), true,
                         compute);  // looks at its shape only
   }
-  CellConvTranspose({n, h, in, weight.size(0)}, values.contiguous(kChannelsLast).data_ptr<float>(),
-                    Panels(weight, false).data(), result.data_ptr<float>());
+  const CellConvShape shape{n, h, in, weight.size(0)};
+  const at::Tensor x = values.contiguous(kChannelsLast);
+  if (SuitsWinograd(shape)) {
+    WinogradConvTranspose(shape, x.data_ptr<float>(), weight.contiguous().data_ptr<float>(),
+                          result.data_ptr<float>());
+  } else {
+    CellConvTranspose(shape, x.data_ptr<float>(), Panels(weight, false).data(),
+                      result.data_ptr<float>());
+  }
   return result;
 }
 
@@ -126,10 +140,15 @@ at::Tensor WeightGradient(const at::Tensor& cells, const at::Tensor& values,
     return UnfoldKernel(ConvGradient(values, cells, FoldKernel(weight), false, compute));
   }
   const CellConvShape shape{cells.size(0), cells.size(2), cells.size(1), weight.size(0)};
-  std::vector<float> gradient(8 * shape.in * shape.out);
-  CellConvWeightGradient(shape, cells.contiguous(kChannelsLast).data_ptr<float>(),
-                         values.contiguous(kChannelsLast).data_ptr<float>(), gradient.data());
+  const at::Tensor x = cells.contiguous(kChannelsLast), y = values.contiguous(kChannelsLast);
   at::Tensor result = at::empty_like(weight, at::MemoryFormat::Contiguous);
+  if (SuitsWinograd(shape)) {
+    WinogradConvWeightGradient(shape, x.data_ptr<float>(), y.data_ptr<float>(),
+                               result.data_ptr<float>());
+    return result;
+  }
+  std::vector<float> gradient(8 * shape.in * shape.out);
+  CellConvWeightGradient(shape, x.data_ptr<float>(), y.data_ptr<float>(), gradient.data());
   float* to = result.data_ptr<float>();
   const std::int64_t b = weight.size(1);
   for (std::int64_t t = 0; t < kTaps; ++t) {

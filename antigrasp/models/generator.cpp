@@ -5,6 +5,7 @@
 
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/libtorch.h"
+#include "antigrasp/models/norm_relu.h"
 #include "antigrasp/models/random_tensor.h"
 
 namespace antigrasp {
@@ -97,7 +98,7 @@ void GeneratorImpl::RestartStatistics() {
 }
 
 torch::Tensor GeneratorImpl::Activate(std::size_t layer, const torch::Tensor& x) {
-  return (options_.batch_norm ? norms_[layer](x) : x + biases_[layer]).relu_();
+  return options_.batch_norm ? NormRelu(norms_[layer], x) : (x + biases_[layer]).relu_();
 }
 
 // x: activated. Adds a convolution of itself, normalised and activated.

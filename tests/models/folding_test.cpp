@@ -69,7 +69,12 @@ TEST(Folding, DownConvEqualsThePlainStridedConvolutionWithItsGradients) {
                                       {1, 8, 32},
                                       {3, 16, 8},
                                       {2, 40, 6},
-                                      {5, 24, 2}}) {
+                                      {5, 24, 2},
+                                      // by Winograd's scheme
+                                      {8, 16, 16},
+                                      {16, 32, 4},
+                                      {24, 48, 12},
+                                      {48, 16, 8}}) {
     std::vector<torch::Tensor> plain = {Normal({2, in, side, side, side}, 8),
                                         Normal({out, in, 4, 4, 4}, 9), Normal({out}, 10)};
     std::vector<torch::Tensor> folded;
@@ -100,7 +105,12 @@ TEST(Folding, UpConvEqualsThePlainTransposedConvolutionWithItsGradients) {
                                       {8, 1, 16},
                                       {16, 3, 4},
                                       {40, 2, 3},
-                                      {24, 5, 1}}) {
+                                      {24, 5, 1},
+                                      // by Winograd's scheme
+                                      {16, 8, 8},
+                                      {32, 16, 2},
+                                      {48, 24, 6},
+                                      {16, 48, 4}}) {
     std::vector<torch::Tensor> plain = {Normal({2, in, side, side, side}, 12),
                                         Normal({in, out, 4, 4, 4}, 13)};
     std::vector<torch::Tensor> folded;

@@ -1,0 +1,126 @@
+#include <ATen/Parallel.h>
+
+#include "antigrasp/models/winograd_conv.h"
+#include "antigrasp/models/winograd_tiles.h"
+#include "antigrasp/models/winograd_weights.h"
+
+// Compiled for AVX2 and FMA, like all of Winograd's convolution.
+namespace antigrasp {
+namespace winograd {
+namespace {
+
+// sums [Rows][16] = or += over the tiles of values [tile][Rows] x outputs [tile][16].
+template <int Rows>
+inline void AddTiles(const float* values, std::int64_t stride, const float* outputs,
+                     std::int64_t tiles, float* sums, bool first) {
+  __m256 total[Rows][2];
+#pragma GCC unroll 8
+  for (int r = 0; r < Rows; ++r) {
+    total[r][0] = first ? _mm256_setzero_ps() : _mm256_loadu_ps(sums + r * kPanel);
+    total[r][1] = first ? _mm256_setzero_ps() : _mm256_loadu_ps(sums + r * kPanel + kLanes);
+  }
+  for (std::int64_t t = 0; t < tiles; ++t, values += stride, outputs += kPanel) {
+    const __m256 left = _mm256_loadu_ps(outputs), right = _mm256_loadu_ps(outputs + kLanes);
+#pragma GCC unroll 8
+    for (int r = 0; r < Rows; ++r) {
+      const __m256 value = _mm256_broadcast_ss(values + r);
+      total[r][0] = _mm256_fmadd_ps(value, left, total[r][0]);
+      total[r][1] = _mm256_fmadd_ps(value, right, total[r][1]);
+    }
+  }
+#pragma GCC unroll 8
+  for (int r = 0; r < Rows; ++r) {
+    _mm256_storeu_ps(sums + r * kPanel, total[r][0]);
+    _mm256_storeu_ps(sums + r * kPanel + kLanes, total[r][1]);
+  }
+}
+
+// The gradients of the factors of one block of inputs, summed over blocks of tiles.
+class BlockGradient {
+ public:
+  BlockGradient(const CellConvShape& shape, const InputBlock& block)
+      : s_(shape),
+        block_(block),
+        rows_(4 * block.width),
+        cell_(StepsOf(shape.h, shape.in)),
+        output_(StepsOf(shape.h - 1, shape.out)),
+        value_step_(kTiles * rows_ + kPadding),
+        spread_step_(kTiles * shape.out + kPadding),
+        sum_step_(rows_ * shape.out + kPadding),
+        values_(AllocateFloats(9 * value_step_)),
+        spread_(AllocateFloats(9 * spread_step_)),
+        sums_(AllocateFloats(27 * sum_step_)) {}
+
+  template <int Z>
+  void Add(const TileBlock& tiles, const float* cells, const float* output_gradient, bool first) {
+    const float* phases = cells + 4 * block_.pz * (s_.in / 8) + block_.first;
+    for (std::int64_t r = 0; r < tiles.count; ++r) {
+      for (int p = 0; p < 4; ++p) {
+        DifferenceCells<Z>(phases + tiles.cells[r] + p * (s_.in / 8), cell_, block_.width,
+                           values_.get() + r * rows_ + p * block_.width, value_step_);
+      }
+      for (std::int64_t o = 0; o < s_.out; o += kPanel) {
+        SpreadOutputs<Z>(output_gradient + tiles.outputs[r] + o, output_, kPanel,
+                         spread_.get() + o * kTiles + r * kPanel, spread_step_);
+      }
+    }
+    for (int k = 0; k < 9; ++k) {
+      const float* values = values_.get() + k * value_step_;
+      for (std::int64_t o = 0; o < s_.out; o += kPanel) {
+        const float* outputs = spread_.get() + k * spread_step_ + o * kTiles;
+        float* sums = sums_.get() + (9 * Z + k) * sum_step_ + o * rows_;
+        AddRows(values, outputs, tiles.count, sums, first);
+      }
+    }
+  }
+
+  void Finish(float* weight_gradient) const {
+    GatherWeightGradient(s_, block_, sums_.get(), sum_step_, weight_gradient);
+  }
+
+ private:
+  // 32 and 64 rows as sixes and fours: six fill the registers.
+  void AddRows(const float* values, const float* outputs, std::int64_t tiles, float* sums,
+               bool first) const {
+    const std::int64_t sixes = rows_ == 64 ? 60 : 24;
+    std::int64_t r = 0;
+    for (; r < sixes; r += 6) {
+      AddTiles<6>(values + r, rows_, outputs, tiles, sums + r * kPanel, first);
+    }
+    for (; r < rows_; r += 4) {
+      AddTiles<4>(values + r, rows_, outputs, tiles, sums + r * kPanel, first);
+    }
+  }
+
+  CellConvShape s_;
+  InputBlock block_;
+  std::int64_t rows_;
+  Steps cell_, output_;
+  std::int64_t value_step_, spread_step_, sum_step_;
+  Floats values_, spread_, sums_;
+};
+
+}  // namespace
+}  // namespace winograd
+
+void WinogradConvWeightGradient(const CellConvShape& s, const float* cells,
+                                const float* output_gradient, float* weight_gradient) {
+  using namespace winograd;
+  const std::int64_t channels = s.in / 8, t = (s.h - 1) / 2, tiles = s.count * t * t * t;
+  const std::int64_t width = channels % 16 == 0 ? 16 : 8, blocks = channels / width;
+  // A block of inputs belongs to one thread: the same sums for any number of them.
+  at::parallel_for(0, 2 * blocks, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      BlockGradient gradient(s, {i % 2, i / 2 * width, width});
+      for (std::int64_t first = 0; first < tiles; first += kTiles) {
+        const TileBlock block(s, first, std::min(kTiles, tiles - first));
+        gradient.Add<0>(block, cells, output_gradient, first == 0);
+        gradient.Add<1>(block, cells, output_gradient, first == 0);
+        gradient.Add<2>(block, cells, output_gradient, first == 0);
+      }
+      gradient.Finish(weight_gradient);
+    }
+  });
+}
+
+}  // namespace antigrasp
