@@ -3,7 +3,8 @@ import argparse
 import pathlib
 
 from reproduce_document import DOCUMENT, IMAGES, commit, pyplot, save_figure, write_section
-from reproduce_runs import COMPARED, ratio, rows_of, shown, surfaces, train
+from reproduce_runs import (COMPARED, RESULTS, SURFACE_COLUMNS, compare, keep, ratio, rows_of, shown, surface_cells, surfaces,
+                            train)
 
 EPISODES = 10
 KIND = "cylinders"
@@ -22,19 +23,18 @@ WAYS = {
 COLOURS = {"paper": "#b2182b", "stratified": "#2166ac", "latent": "#1b7837", "latent stratified": "#7fbf7b", "control": "0.5"}
 
 
-def table(folders):
-    lines = ["| elites | episode | kappa / prior | kappa / control | rejected | COV, % | 1-NNA | Vendi score | to the nearest prior shape | roughness, degrees |",
-             "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
-    control = rows_of(folders["control"])
-    for way, folder in folders.items():
+def table(results):
+    columns = ("elites", "episode", "kappa / prior", "kappa / control", "rejected", *SURFACE_COLUMNS, "to the nearest prior shape")
+    lines = [f"| {' | '.join(columns)} |", "| --- " * len(columns) + "|"]
+    control = rows_of(results["control"]) if "control" in results else {}
+    for way, folder in results.items():
         rows = rows_of(folder)
-        for episode in sorted({0, EPISODES // 2, max(rows, default=0)} & set(rows)):
-            row, seen = rows[episode], surfaces(folder, episode, KIND, folder.parent)
+        for episode in sorted({0, EPISODES // 2, max(rows)} & set(rows)):
+            row, seen = rows[episode], surfaces(folder, episode)
             beside = shown(ratio(row, control[episode])) if way != "control" and episode in control and episode else "-"
+            nearest = f"{seen['nearest_training'][0]:.3f}" if seen else "-"
             lines.append(f"| {way} | {episode} | {shown(ratio(row, rows[-1]))} | {beside} "
-                         f"| {100 * (1 - int(row['ok']) / int(row['samples'])):.0f} % | {100 * float(seen['coverage'][0]):.0f} "
-                         f"| {float(seen['nna'][0]):.2f} | {float(seen['vendi'][0]):.0f} | {float(seen['nearest_training'][0]):.3f} "
-                         f"| {float(seen['roughness'][0]):.1f} |")
+                         f"| {1 - int(row['ok']) / int(row['samples']):.0%} | {surface_cells(seen)} | {nearest} |")
     return "\n".join(lines)
 
 
@@ -59,19 +59,30 @@ def curves(path, folders):
     save_figure(figure, path)
 
 
-def document(folders):
-    folders = {way: folder for way, folder in folders.items() if max(rows_of(folder), default=-1) >= 0}
-    curves(IMAGES / "cem_variants.png", folders)
-    ways = "\n".join(f"- **{way}**: {WAYS[way][0]}" for way in folders)
+def refresh(way, folder):
+    for episode in {0, EPISODES // 2, max(rows_of(folder))}:
+        compare(folder, episode, KIND, folder.parent)
+    keep(folder, results_of(way))
+
+
+def results_of(way):
+    return RESULTS / "cem" / way.replace(" ", "-")
+
+
+def document():
+    results = {way: results_of(way) for way in WAYS if rows_of(results_of(way))}
+    curves(IMAGES / "cem_variants.png", results)
+    ways = "\n".join(f"- **{way}**: {WAYS[way][0]}" for way in results)
     write_section("cem", f"""
 ## Ways to choose elites, over ten episodes
 
 `scripts/reproduce cem`, written at commit {commit()}. Cylinders, all from the pretrained networks `{START}`; 1,000 samples and 200 elites in every
-episode, 250 updates where networks are retrained. Surfaces: {COMPARED} samples against {COMPARED} prior shapes held out.
+episode, 250 updates where networks are retrained. Surfaces: {COMPARED} samples against {COMPARED} prior shapes held out
+([similarity.md](similarity.md)); the numbers are kept in [results/cem](results/cem).
 
 {ways}
 
-{table(folders)}
+{table(results)}
 
 ![Kappa, coverage and rejection over ten episodes](images/cem_variants.png)
 """)
@@ -90,7 +101,10 @@ def main():
         if not arguments.report and arguments.only in (None, way):
             train(f"{way}: {label}", folders[way], COMMON + settings, extra=["--from", START])
     if arguments.report or not arguments.only:
-        document(folders)
+        for way, folder in folders.items():
+            if rows_of(folder):
+                refresh(way, folder)
+        document()
 
 
 if __name__ == "__main__":

@@ -36,13 +36,13 @@ def save_figure(figure, path):
     figure.savefig(path, dpi=110, metadata={"Software": None})
 
 
-def write_section(name, text):
+def write_section(name, text, document=DOCUMENT):
     """Replaces what stands between the section's marks in the document, or adds it."""
     begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
-    old = DOCUMENT.read_text() if DOCUMENT.exists() else "# Reproduction\n"
+    old = document.read_text() if document.exists() else "# Reproduction\n"
     section = f"{begin}\n{text.strip()}\n{end}\n"
     pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end) + "\n", re.S)
     new = pattern.sub(lambda _: section, old) if begin in old else old.rstrip() + "\n\n" + section
-    temporary = DOCUMENT.with_suffix(".md.part")
+    temporary = document.with_suffix(".md.part")
     temporary.write_text(new)
-    temporary.replace(DOCUMENT)
+    temporary.replace(document)

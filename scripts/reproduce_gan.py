@@ -6,7 +6,8 @@ import pathlib
 import numpy as np
 
 from reproduce_document import DOCUMENT, IMAGES, call, commit, pyplot, save_figure, write_section
-from reproduce_runs import COMPARED, SAMPLE_SEED, held_out, ratio, rows_of, shown, surfaces, train
+from reproduce_runs import (COMPARED, RESULTS, SAMPLE_SEED, SURFACE_COLUMNS, compare, held_out, keep, ratio, rows_of, shown, surface_cells,
+                            surfaces, train)
 
 
 class Run:
@@ -29,24 +30,21 @@ def rejected(row):
     return f"{100 * total / int(row['samples']):.1f} %" + (f" ({text})" if text else "")
 
 
-def stage_table(run, folder, out):
-    rows, control = rows_of(folder), rows_of(folder / "control")
-    lines = ["| stage | rejected | kappa / prior | kappa / episode 0 | kappa / control | COV, % | 1-NNA | Vendi score | roughness, degrees |",
-             "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
-    stages = [("", folder, rows, e) for e in sorted(rows) if e >= 0]
-    if control and run.episodes in control:
-        stages.append(("control, ", folder / "control", control, run.episodes))
-    reference = None
+def stage_table(run, results):
+    rows, control = rows_of(results), rows_of(results / "control")
+    columns = ("stage", "rejected", "kappa / prior", "kappa / episode 0", "kappa / control", *SURFACE_COLUMNS)
+    lines = [f"| {' | '.join(columns)} |", "| --- " * len(columns) + "|"]
+    stages = [("", results, rows, e) for e in sorted(rows) if e >= 0]
+    if run.episodes in control:
+        stages.append(("control, ", results / "control", control, run.episodes))
     for label, where, table, episode in stages:
-        row, measured = table[episode], surfaces(where, episode, run.kind, out)
-        reference = measured
+        row, measured = table[episode], surfaces(where, episode)
         to_control = shown(ratio(row, control[episode])) if not label and episode > 0 and episode in control else "-"
         lines.append(f"| {label}episode {episode} | {rejected(row)} | {shown(ratio(row, rows[-1]))} | {shown(ratio(row, rows[0]))} "
-                     f"| {to_control} | {100 * float(measured['coverage'][0]):.0f} | {float(measured['nna'][0]):.2f} "
-                     f"| {float(measured['vendi'][0]):.0f} | {float(measured['roughness'][0]):.1f} |")
-    if reference:
-        lines.insert(2, f"| prior set | {rejected(rows[-1])} | 1 | - | - | - | - | {float(reference['vendi'][1]):.0f} "
-                        f"| {float(reference['roughness'][1]):.1f} |")
+                     f"| {to_control} | {surface_cells(measured)} |")
+    first = surfaces(results, 0)
+    if first:
+        lines.insert(2, f"| prior set | {rejected(rows[-1])} | 1 | - | - | - | - | - | 1 | {first['vendi'][1]:.0f} | {first['roughness'][1]:.1f} |")
     return "\n".join(lines)
 
 
@@ -82,11 +80,12 @@ def picture(path, run, folder, out):
     call("sheet", *rows, "--pixels", 130, "--out", path)
 
 
-def summary(runs):
+def summary():
     lines = ["| set | resampling iterations | paper, % | against the prior set, % | against episode 0, % | against the control, % |",
              "| --- | --- | --- | --- | --- | --- |"]
-    for run, folder in runs:
-        rows, control = rows_of(folder), rows_of(folder / "control")
+    for run in RUNS:
+        results = RESULTS / "gan" / run.name
+        rows, control = rows_of(results), rows_of(results / "control")
         last = max(rows, default=-1)
         if last < 1:
             lines.append(f"| {run.name} | not run yet | {run.paper} | | | |")
@@ -109,16 +108,24 @@ def pretrained(runs):
                 call("generator", runs_folder / f"episode_{episode}/checkpoint.pt", "--out", folder / f"{run.name}-{name}.pt")
 
 
-def document(runs, out):
+def refresh(run, folder, out):
+    """Measures what a run has sampled and keeps the numbers and pictures of it."""
+    for where in (folder, folder / "control"):
+        for episode in sorted(e for e in rows_of(where) if e >= 0):
+            compare(where, episode, run.kind, out)
+    keep(folder, RESULTS / "gan" / run.name)
+    histograms(IMAGES / f"gan_{run.name}_histograms.png", run, folder)
+    picture(IMAGES / f"gan_{run.name}.png", run, folder, out)
+
+
+def document():
     sections = []
-    for run, folder in runs:
-        if max(rows_of(folder), default=-1) < 0:
+    for run in RUNS:
+        if not rows_of(RESULTS / "gan" / run.name):
             continue
-        histograms(IMAGES / f"gan_{run.name}_histograms.png", run, folder)
-        picture(IMAGES / f"gan_{run.name}.png", run, folder, out)
         sections.append(f"""### {run.name}
 
-{stage_table(run, folder, out)}
+{stage_table(run, RESULTS / "gan" / run.name)}
 
 ![Samples of {run.name}: prior set, then every episode](images/gan_{run.name}.png)
 
@@ -132,12 +139,12 @@ From above: prior set, then every episode; drawn at random, nothing picked.
 `scripts/reproduce gan`, written at commit {commit()}. 2,500 samples and 500 elites as in the paper; width, updates and the rest in
 [configs/reproduction.toml](../configs/reproduction.toml) (the paper: 16,000 updates an episode). Kappa is the mean over all usable samples of
 a stage, ± its 95 % interval. The control keeps 500 *random* usable samples in every episode: what it loses is what retraining alone
-does. COV, 1-NNA, Vendi score and roughness (mean dihedral angle) compare {COMPARED} samples with {COMPARED} prior shapes that no network has seen, on
-their surfaces ([similarity.md](similarity.md)). **The bottles are our own surfaces of revolution, not ShapeNet's.**
+does. COV, 1-NNA, MMD, diversity (mean pairwise distance by the prior's), Vendi score and roughness (mean dihedral angle) compare {COMPARED} samples with
+{COMPARED} prior shapes that no network has seen, on their surfaces ([similarity.md](similarity.md)). The numbers are kept in [results/gan](results/gan). **The bottles are our own surfaces of revolution, not ShapeNet's.**
 
 Reduction of kappa:
 
-{summary(runs)}
+{summary()}
 
 {"".join(sections)}
 """)
@@ -155,8 +162,10 @@ def main():
         if not arguments.report and arguments.only in (None, run.name):
             train(f"{run.name}: {run.episodes} resampling iterations and their control", arguments.out / run.name, run.settings)
     if arguments.report or not arguments.only:
-        runs = [(run, arguments.out / run.name) for run in RUNS]
-        document(runs, arguments.out)
+        runs = [(run, arguments.out / run.name) for run in RUNS if rows_of(arguments.out / run.name)]
+        for run, folder in runs:
+            refresh(run, folder, arguments.out)
+        document()
         pretrained(runs)
 
 

@@ -1,5 +1,7 @@
 """Training runs behind scripts/reproduce: starting them, and reading what they wrote."""
 import csv
+import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -10,6 +12,7 @@ from reproduce_document import BINARY, call
 CONFIG = "configs/reproduction.toml"
 COMPARED = 200  # objects a side of the comparison with shapes that were held out
 SAMPLE_SEED = 1000
+RESULTS = pathlib.Path("docs/results")  # the numbers behind the tables, kept when the runs are gone
 
 
 def train(label, folder, settings, extra=()):
@@ -24,6 +27,16 @@ def train(label, folder, settings, extra=()):
 def rows_of(folder):
     file = folder / "statistics.csv"
     return {int(r["stage"]): r for r in csv.DictReader(open(file))} if file.exists() else {}
+
+
+def keep(folder, results):
+    """Copies the tables of a run and its control beside the documents, under the same names."""
+    for where, to in ((folder, results), (folder / "control", results / "control")):
+        for file in [where / "statistics.csv", *where.glob("episode_*/compare.csv")]:
+            if file.exists():
+                target = to / file.relative_to(where)
+                target.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(file, target)
 
 
 def ratio(row, reference):
@@ -44,14 +57,32 @@ def held_out(kind, out, count, seed):
     return file
 
 
-def surfaces(folder, episode, kind, out):
-    """The comparison of an episode's samples with held-out shapes, on their surfaces: {measure: (samples, reference)}."""
+def compare(folder, episode, kind, out):
+    """Compares an episode's samples with held-out shapes on their surfaces, unless that is done."""
     result = folder / f"episode_{episode}" / "compare.csv"
-    if not result.exists():
-        samples = out / "samples.h5"
-        print(f"comparing {folder}, episode {episode}", flush=True)
-        call("sample", folder / f"episode_{episode}/checkpoint.pt", "--count", int(1.6 * COMPARED), "--seed", SAMPLE_SEED, "--out",
-             samples)
-        call("compare", samples, held_out(kind, out, COMPARED, 2), "--train", folder / "prior.h5", "--count", COMPARED, "--out",
-             result)
-    return {r["measure"]: (r["samples"], r["reference"]) for r in csv.DictReader(open(result))}
+    if result.exists() or not (result.parent / "scores.csv").exists():
+        return
+    samples = out / f"samples-{folder.name}-{episode}.h5"
+    print(f"comparing {folder}, episode {episode}", flush=True)
+    call("sample", folder / f"episode_{episode}/checkpoint.pt", "--count", int(1.6 * COMPARED), "--seed", SAMPLE_SEED, "--out", samples)
+    call("compare", samples, held_out(kind, out, COMPARED, 2), "--train", folder / "prior.h5", "--count", COMPARED, "--out", result)
+    samples.unlink()
+
+
+def surfaces(results, episode):
+    """What compare found: {measure: (of the samples, of the reference)}; empty where it was not run."""
+    file = results / f"episode_{episode}" / "compare.csv"
+    if not file.exists():
+        return {}
+    return {r["measure"]: (float(r["samples"] or "nan"), float(r["reference"] or "nan")) for r in csv.DictReader(open(file))}
+
+
+SURFACE_COLUMNS = ("COV", "1-NNA", "MMD", "diversity", "Vendi score", "roughness, degrees")
+
+
+def surface_cells(measured):
+    """The cells of SURFACE_COLUMNS."""
+    if not measured:
+        return " | ".join("-" * len(SURFACE_COLUMNS))
+    formats = {"coverage": ".0%", "nna": ".2f", "matching": ".3f", "diversity": ".2f", "vendi": ".0f", "roughness": ".1f"}
+    return " | ".join(format(measured[name][0], form) for name, form in formats.items())
