@@ -60,6 +60,9 @@ int Run(int argc, char** argv) {
   AddPosesCommand(&app);
   AddTrialCommand(&app);
   AddSheetCommand(&app);
+#ifdef ANTIGRASP_HAS_REPORT
+  AddReportCommand(&app);
+#endif
   AddExportCommand(&app);
   AddGeneratorCommand(&app);
   AddInfoCommand(&app);
