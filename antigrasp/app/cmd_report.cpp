@@ -7,6 +7,7 @@
 #include "antigrasp/app/flags.h"
 #include "antigrasp/app/report_objects.h"
 #include "antigrasp/app/report_perturbed.h"
+#include "antigrasp/app/report_print.h"
 #include "antigrasp/app/report_run.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
@@ -20,6 +21,7 @@ namespace {
 struct ReportFlags {
   ReportSettings settings;
   std::string out, title;
+  double size_mm = 60.0;
 };
 
 // A run, or a folder that `perturb` wrote, has a metric of its own and fills a page alone.
@@ -53,9 +55,10 @@ void WriteReport(const ReportFlags& flags, bool metric_given) {
   const AtomicFile probe(flags.out);  // refuses an unwritable target before the work
   ConsoleObserver console;
   Report report = Collect(flags.settings, metric_given, &console);
+  AddPrintChecks(flags.size_mm, flags.settings.threads, &console, &report);
   report.title = flags.title.empty() ? TitleOf(flags.settings.inputs) : flags.title;
-  report.provenance.emplace_back("report made by", "antigrasp " + ProgramVersion() + " (" +
-                                                       ProgramCommit() + ")");
+  report.provenance.emplace_back("report made by",
+                                 "antigrasp " + ProgramVersion() + " (" + ProgramCommit() + ")");
   PayloadOptions options;
   options.threads = flags.settings.threads;
   const ReportPayload payload = EncodeReport(report, options, console.Phase("packing"));
@@ -83,11 +86,15 @@ void AddReportCommand(CLI::App* app) {
   command->add_option("--out", flags->out, "the page (HTML)")->required();
   command->add_option("--title", flags->title, "of the page; without it, the inputs");
   command
-      ->add_option("--per-stage", settings.per_stage,
-                   "objects shown of every stage of a run: half the least graspable, half at random")
+      ->add_option(
+          "--per-stage", settings.per_stage,
+          "objects shown of every stage of a run: half the least graspable, half at random")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
   command->add_option("--limit", settings.limit, "objects shown of other inputs; 0 = all")
+      ->capture_default_str();
+  command->add_option("--size-mm", flags->size_mm, "largest extent in the print check, mm")
+      ->check(NumberIn(0.001, 1e5))
       ->capture_default_str();
   CLI::Option* const seed =
       command->add_option("--seed", settings.seed, "random seed of the scores")

@@ -57,10 +57,8 @@ class Gallery {
         found == tables_.scores.end() ? std::vector<ScoreRow>() : found->second;
     std::vector<std::string> prior_names;
     if (episode < 0) prior_names = ReadShapeNames(source);
-    const int samples =
-        episode < 0 ? static_cast<int>(prior_names.size()) : config_.cem.samples;
-    const GalleryChoice choice =
-        ChooseSamples(rows, samples, episode, per_stage, config_.seed);
+    const int samples = episode < 0 ? static_cast<int>(prior_names.size()) : config_.cem.samples;
+    const GalleryChoice choice = ChooseSamples(rows, samples, episode, per_stage, config_.seed);
     report_->groups.push_back({stage.id, stage.label, choice.note});
     const auto made = StageSamples(run_, config_, episode, choice.indices, observer_);
     const auto elites = ElitesOf(run_, episode);
@@ -86,8 +84,8 @@ class Gallery {
   ReportObject ObjectOf(const ScoredSample& sample) const {
     ReportObject object;
     object.group = report_->groups.size() - 1;
-    object.status = std::string(sample.object.ok() ? Name(sample.score.status)
-                                                   : Name(sample.object.status));
+    object.status =
+        std::string(sample.object.ok() ? Name(sample.score.status) : Name(sample.object.status));
     object.shape = ShapeOf(sample.object.mesh, sample.score);
     return object;
   }

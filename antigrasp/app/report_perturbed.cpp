@@ -112,8 +112,8 @@ Report PerturbedReport(const std::string& folder, const ReportSettings& settings
         const std::string file = FileNameOf(row.object.name) + ".stl";
         const auto stream = static_cast<std::uint64_t>(i);
         const SavedMetric* const metric = saved ? &*saved : nullptr;
-        const bool before = Fill(root / "before" / file, row.before, metric, stream,
-                                 &row.object.original->shape);
+        const bool before =
+            Fill(root / "before" / file, row.before, metric, stream, &row.object.original->shape);
         const bool after =
             Fill(root / "after" / file, row.after, metric, stream, &row.object.shape);
         agrees[slot] = before && after ? 1 : 0;

@@ -19,9 +19,9 @@ void AddIfKnown(const std::string& label, const std::string& text,
 // "1 thread", "2 threads, 1 of LibTorch".
 std::string ThreadsText(const Provenance& p) {
   const std::string text = std::to_string(p.threads) + (p.threads == 1 ? " thread" : " threads");
-  return p.torch_threads == p.threads ? text
-                                      : text + ", " + std::to_string(p.torch_threads) +
-                                            " of LibTorch";
+  return p.torch_threads == p.threads
+             ? text
+             : text + ", " + std::to_string(p.torch_threads) + " of LibTorch";
 }
 
 void AddProvenance(const RunFolder& run, Report* report) {

@@ -111,8 +111,7 @@ class StageReader {
   }
 
   void Read(int episode) {
-    const fs::path scores =
-        episode < 0 ? run_.PriorScores() : run_.Episode(episode) / "scores.csv";
+    const fs::path scores = episode < 0 ? run_.PriorScores() : run_.Episode(episode) / "scores.csv";
     const StageStatistics* row = FindStage(rows_, episode);
     const bool scored = fs::exists(scores);
     if (!scored && row == nullptr && (episode < 0 || !fs::exists(run_.Episode(episode)))) {

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLargest = 1e15;   // coordinates: their squares and products stay in a float
+constexpr double kLargest = 1e15;  // coordinates: their squares and products stay in a float
 constexpr double kSmallest = 1e-15;
 constexpr double kSteps = 65535.0;
 

@@ -34,8 +34,8 @@ struct ReportPrint {
   Eigen::Vector3d size_mm = Eigen::Vector3d::Zero();
   double wall_mm = 0.0;  // thinnest
   bool watertight = false;
-  double overhang = 0.0;                          // share of the surface
-  std::optional<Eigen::Matrix3d> pose = {};       // table from object
+  double overhang = 0.0;                     // share of the surface
+  std::optional<Eigen::Matrix3d> pose = {};  // table from object
   double pose_probability = 0.0;
   std::vector<std::string> notes = {};
 };
@@ -88,10 +88,10 @@ struct ReportGroup {
 
 struct Report {
   std::string title;
-  std::string kind;                      // "run", "perturbed", "objects"
-  std::vector<std::string> missing;      // sentences
+  std::string kind;                  // "run", "perturbed", "objects"
+  std::vector<std::string> missing;  // sentences
   std::vector<LabelledText> provenance;
-  std::optional<std::string> config;     // TOML
+  std::optional<std::string> config;  // TOML
   std::optional<MetricOptions> metric;
   std::optional<ReportRun> run;
   std::vector<ReportGroup> groups;

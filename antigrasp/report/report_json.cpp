@@ -97,9 +97,12 @@ Json PairsJson(const std::vector<LabelledText>& pairs) {
 }
 
 Json ScoreJson(const ReportScore& score) {
-  return {{"graspability", score.graspability}, {"ci_low", score.ci_low},
-          {"ci_high", score.ci_high},           {"mean", score.mean},
-          {"fraction_nonzero", score.fraction_nonzero}, {"num_grasps", score.num_grasps}};
+  return {{"graspability", score.graspability},
+          {"ci_low", score.ci_low},
+          {"ci_high", score.ci_high},
+          {"mean", score.mean},
+          {"fraction_nonzero", score.fraction_nonzero},
+          {"num_grasps", score.num_grasps}};
 }
 
 Json PrintJson(const ReportPrint& print) {

@@ -14,7 +14,7 @@
 namespace antigrasp {
 namespace {
 
-constexpr double kSaveEvery = 60.0;        // seconds
+constexpr double kSaveEvery = 60.0;         // seconds
 constexpr const char* kNeeded = "needed.";  // no key is: what another version wrote is left out
 
 void Bind(OptionTable* table, Provenance* p) {

@@ -31,8 +31,7 @@ torch::Tensor SampledValues(const RunFolder& run, RunConfig config, int stage,
                             const std::vector<std::int64_t>& indices, const ProgressFn& progress) {
   config.device = "cpu";
   GanTrainer trainer = MakeTrainer(config);
-  ReadNetworks(run.EpisodeCheckpoint(stage),
-               [&](auto* archive) { trainer.LoadNetworks(archive); });
+  ReadNetworks(run.EpisodeCheckpoint(stage), [&](auto* archive) { trainer.LoadNetworks(archive); });
   std::vector<torch::Tensor> values;
   for (const std::int64_t i : indices) {
     if (i < 0) throw InputError("sample " + std::to_string(i), run.root.string(), "0 or more");
@@ -57,8 +56,8 @@ torch::Tensor StageValues(const RunFolder& run, const RunConfig& config, int sta
 std::vector<ScoredSample> StageSamples(const RunFolder& run, const RunConfig& config, int stage,
                                        const std::vector<std::int64_t>& indices,
                                        RunObserver* observer) {
-  const torch::Tensor values = StageValues(run, config, stage, indices,
-                                           observer->Phase(StageText(stage) + ": sampling"));
+  const torch::Tensor values =
+      StageValues(run, config, stage, indices, observer->Phase(StageText(stage) + ": sampling"));
   std::vector<ScoredSample> samples(indices.size());
   ParallelFor(
       std::ssize(indices), config.threads,

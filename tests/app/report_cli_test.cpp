@@ -83,10 +83,13 @@ TEST(ReportCli, ShowsObjectsWithTheScoresOfEvaluateAndTheBrokenOnesToo) {
     EXPECT_EQ(object["score"].is_null(), !scored) << name;
     EXPECT_EQ(object["grasps"].is_null(), !scored) << name;
     EXPECT_EQ(object["mesh"].is_null(), name == "noise.off") << name;
+    EXPECT_EQ(object["print"].is_null(), name == "noise.off") << name;
     if (scored) {
       EXPECT_EQ(object["score"]["graspability"], scores.at(name)) << name;
       EXPECT_EQ(object["grasps"][1], 10 * 17 * 4);
       EXPECT_EQ(object["status"], "ok");
+      EXPECT_EQ(object["print"]["watertight"], true);
+      EXPECT_NEAR(object["print"]["size_mm"][2], 60.0, 1e-9);
     }
   }
   EXPECT_EQ(scores.size(), 2u);

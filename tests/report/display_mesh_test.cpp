@@ -29,9 +29,9 @@ TriangleMesh Decoded(const DisplayMesh& display) {
                                        positions.size()),
             0);
   std::vector<std::uint32_t> corners(display.indices.size());
-  EXPECT_EQ(meshopt_decodeIndexBuffer(corners.data(), corners.size(), 4, Bytes(indices),
-                                      indices.size()),
-            0);
+  EXPECT_EQ(
+      meshopt_decodeIndexBuffer(corners.data(), corners.size(), 4, Bytes(indices), indices.size()),
+      0);
   TriangleMesh mesh;
   for (const auto& q : quantised) {
     EXPECT_EQ(q[3], 0);

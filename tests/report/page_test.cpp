@@ -20,15 +20,14 @@ TEST(Page, FillsEveryMarkerOnceWhateverTheDataHolds) {
 
 TEST(Page, TitleIsText) {
   const std::string page = FillTemplate(kTemplate, "</title><script>alert('\"&\")", {"{}", ""});
-  EXPECT_TRUE(page.starts_with(
-      "<title>&lt;/title&gt;&lt;script&gt;alert(&#39;&quot;&amp;&quot;)</title>"))
+  EXPECT_TRUE(
+      page.starts_with("<title>&lt;/title&gt;&lt;script&gt;alert(&#39;&quot;&amp;&quot;)</title>"))
       << page;
 }
 
 TEST(Page, TemplateWithoutAMarkerOrWithTwoIsABug) {
   EXPECT_THROW(FillTemplate("<html></html>", "t", {}), std::logic_error);
-  EXPECT_THROW(FillTemplate(std::string(kTemplate) + "ANTIGRASP_TITLE", "t", {}),
-               std::logic_error);
+  EXPECT_THROW(FillTemplate(std::string(kTemplate) + "ANTIGRASP_TITLE", "t", {}), std::logic_error);
 }
 
 }  // namespace

@@ -43,9 +43,12 @@ std::string Part(const std::string& blob, const Json& place) {
 }
 
 TEST(Payload, NamesNeverCloseTheScriptAndReadBackAsTheyAre) {
-  const std::vector<std::string> names = {"</script><script>alert(1)", "\"quoted\\\" & 'single'",
-                                          "<!--<script>", "Grüße, 物体 \xF0\x9F\x98\x80",
-                                          std::string("nul\0, line\nbreak", 15), "\u2028"};
+  const std::vector<std::string> names = {"</script><script>alert(1)",
+                                          "\"quoted\\\" & 'single'",
+                                          "<!--<script>",
+                                          "Grüße, 物体 \xF0\x9F\x98\x80",
+                                          std::string("nul\0, line\nbreak", 15),
+                                          "\u2028"};
   std::vector<ReportObject> objects;
   for (const std::string& name : names) objects.push_back(ObjectOf(name, shapes::Cube()));
   objects.push_back(ObjectOf("cut \xC3", shapes::Cube()));
@@ -133,8 +136,8 @@ TEST(Payload, GraspsComeBestFirstInTheUnitsOfTheMesh) {
   ASSERT_EQ(bytes.size(), 3 * 17 * sizeof(float));
   std::array<float, 3 * 17> values;
   std::memcpy(values.data(), bytes.data(), bytes.size());
-  const std::array<float, 17> best = {-0.5F, 0, 0.075F, 0.5F, 0,  0.075F, -1, 0,     0,
-                                      1,     0, 0,      0,    0,  -1,     0.003F, 1};
+  const std::array<float, 17> best = {-0.5F, 0, 0.075F, 0.5F, 0, 0.075F, -1,     0, 0,
+                                      1,     0, 0,      0,    0, -1,     0.003F, 1};
   for (std::size_t k = 0; k < best.size(); ++k) EXPECT_FLOAT_EQ(values[k], best[k]) << k;
   EXPECT_FLOAT_EQ(values[17 + 15], 0.002F);
   EXPECT_FLOAT_EQ(values[34 + 15], 0.001F);

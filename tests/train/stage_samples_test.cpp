@@ -21,8 +21,7 @@ std::vector<std::string> RowsOf(const std::filesystem::path& scores) {
   std::vector<std::string> rows;
   CsvReader csv(scores);
   while (csv.Next()) {
-    rows.push_back(csv.Field(*csv.Column("status")) + " " +
-                   csv.Field(*csv.Column("graspability")));
+    rows.push_back(csv.Field(*csv.Column("status")) + " " + csv.Field(*csv.Column("graspability")));
   }
   return rows;
 }
@@ -42,8 +41,7 @@ TEST(StageSamples, AreThoseThatTheRunScoredInAnyOrderAndForAnyNumberOfThreads) {
     const RunFolder run{folder / mode};
     StartRun(config, run.root, &observer);
     for (const int stage : {-1, 0, 1}) {
-      const auto rows =
-          RowsOf(stage < 0 ? run.PriorScores() : run.Episode(stage) / "scores.csv");
+      const auto rows = RowsOf(stage < 0 ? run.PriorScores() : run.Episode(stage) / "scores.csv");
       const std::vector<std::int64_t> indices = {7, 0, 3};
       for (const int threads : {1, 3}) {
         config.threads = config.torch_threads = threads;
