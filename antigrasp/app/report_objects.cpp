@@ -5,6 +5,7 @@
 
 #include "antigrasp/app/input_objects.h"
 #include "antigrasp/app/score_table.h"
+#include "antigrasp/app/scored_objects.h"
 #include "antigrasp/core/csv_reader.h"
 #include "antigrasp/core/error.h"
 
@@ -113,9 +114,10 @@ Report ObjectsReport(const ReportSettings& settings, RunObserver* observer) {
     throw InputError("objects with " + std::to_string(tables.size()) + " tables of scores",
                      tables[1].path, "one table, that of these objects");
   }
-  SavedMetric metric{settings.seed, settings.metric, {}};
+  SavedMetric metric{settings.seed, settings.metric, MetricToml(settings.metric, settings.seed)};
   if (!tables.empty() && tables[0].metric) metric = *tables[0].metric;
   report.metric = metric.metric;
+  report.config = metric.toml;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     report.groups.push_back({"input-" + std::to_string(i), inputs[i]});
   }

@@ -8,6 +8,7 @@
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_reader.h"
+#include "antigrasp/core/error.h"
 #include "antigrasp/train/run_output.h"
 #include "antigrasp/train/statistics.h"
 
@@ -65,6 +66,17 @@ void FillFromScores(const std::vector<ScoreRow>& rows, ReportStage* stage) {
   stage->graspability = MeanWithInterval(Values(rows));
 }
 
+// A stage's table: row i is sample i.
+std::vector<ScoreRow> ReadStageScores(const fs::path& path) {
+  std::vector<ScoreRow> rows = ReadScores(path);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].object == std::to_string(i)) continue;
+    throw InputError("object = \"" + rows[i].object + "\"",
+                     path.string() + ", row " + std::to_string(i + 1), std::to_string(i));
+  }
+  return rows;
+}
+
 ReportLosses ReadLosses(const fs::path& path, int episode, bool control) {
   ReportLosses losses{episode, control, {}};
   CsvReader csv(path);
@@ -120,7 +132,7 @@ class StageReader {
     }
     ReportStage stage = NewStage(episode, control_);
     if (scored) {
-      std::vector<ScoreRow> of_stage = ReadScores(scores);
+      std::vector<ScoreRow> of_stage = ReadStageScores(scores);
       stage.scores = Values(of_stage);
       FillFromScores(of_stage, &stage);
       if (row != nullptr && row->samples != stage.samples) {
