@@ -26,7 +26,7 @@ export function milli(value: Num | undefined, digits = 2): string {
   return known(value) ? fixed(1000 * value, digits) : NONE;
 }
 
-export const MILLI_UNIT = "× 10⁻³";
+export const MILLI_UNIT = "×\u00a010⁻³";
 
 export function plusMinus(value: Num | undefined, half: Num | undefined, digits: number): string {
   if (!known(value)) return NONE;

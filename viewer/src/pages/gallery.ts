@@ -25,7 +25,7 @@ function tile(report: Report, index: number, largest: number, withStage: boolean
   const stage = report.groups[object.group]?.label ?? "";
   const change = changeText(object);
   const score = known(value) ? milli(value) : NONE;
-  const says = [object.name, stage, rejected ? `rejected: ${object.status}` : "", `graspability ${known(value) ? `${score} ${MILLI_UNIT}` : "not measured"}`, change, object.elite ? "elite" : ""];
+  const says = [object.name, stage, rejected ? `rejected: ${object.status}` : "", `graspability ${known(value) ? `${score}\u00a0${MILLI_UNIT}` : "not measured"}`, change, object.elite ? "elite" : ""];
   const picture = h("span", { class: "picture", "data-object": index });
   if (!object.mesh) picture.append(h("span", { class: "no-mesh" }, "no mesh"));
   if (object.elite) picture.append(h("span", { class: "badge" }, "elite"));
@@ -43,7 +43,7 @@ function sectionHeading(report: Report, section: Section): HTMLElement | null {
   const values = section.objects.map((i) => graspability(report.objects[i])).filter(known);
   const mean = values.length ? values.reduce((a, b) => a + b, 0) / values.length : null;
   return h("h2", {}, report.groups[section.group].label, h("small", {},
-    `${count(section.objects.length)} shown, mean graspability ${milli(mean)} ${MILLI_UNIT}`));
+    `${count(section.objects.length)} shown, mean graspability ${milli(mean)}\u00a0${MILLI_UNIT}`));
 }
 
 /** Drags rotate, clicks open: a press that moves by more than a few pixels is no click. */

@@ -133,7 +133,7 @@ export function objectPage(report: Report, index: number): Page {
   const host = h("div", { class: "panels", tabindex: 0, role: "application", "aria-label": `3D view of ${object.name}: arrow keys turn, plus and minus zoom` },
     ...sides.map(({ shape }, i) => h("figure", {}, pictures[i], h("figcaption", {},
       sides.length > 1 || object.pair ? h("b", {}, shape.label ?? "") : null,
-      h("span", {}, `graspability ${milli(graspability(shape))} ${MILLI_UNIT}`)))));
+      h("span", {}, `graspability ${milli(graspability(shape))}\u00a0${MILLI_UNIT}`)))));
   const panels: ObjectPanel[] = [];
   const surface = Surface.over(host, () => panels);
   const redraw = () => surface?.invalidate();

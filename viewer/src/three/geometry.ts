@@ -3,7 +3,7 @@ import type { Mesh } from "../data/mesh";
 
 // Edges sharper than this stay sharp; everything else is shaded smooth. Marching cubes chamfers the edges of a solid
 // over one or two triangles, so that an angle near 90 degrees never occurs in one step.
-const CREASE_DEGREES = 42;
+const CREASE_DEGREES = 55;
 
 /** Geometry to draw, and for each of its vertices the mesh's vertex it came from. */
 export interface Shaded {

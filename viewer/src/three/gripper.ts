@@ -1,12 +1,17 @@
-import { BoxGeometry, Group, Matrix4, Mesh, MeshStandardMaterial, Vector3 } from "three";
+import { BoxGeometry, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshStandardMaterial, Vector3 } from "three";
 import type { Grasp } from "../data/grasps";
 import type { Gripper } from "../data/report";
 
-const FINGERS = new MeshStandardMaterial({ color: 0x4a5663, roughness: 0.5, metalness: 0.2 });
-const PALM = new MeshStandardMaterial({ color: 0x77828e, roughness: 0.5, metalness: 0.2, transparent: true, opacity: 0.85 });
+// Seen through, because a gripper hides most of what it holds; edges keep its shape readable.
+const glass = (opacity: number) => new MeshStandardMaterial({ color: 0x6f8296, roughness: 0.6, transparent: true, opacity, depthWrite: false });
+const FINGERS = glass(0.55);
+const PALM = glass(0.22);
+const EDGES = new LineBasicMaterial({ color: 0x5b6c7d, transparent: true, opacity: 0.9 });
 
 function box(x: [number, number], y: [number, number], z: [number, number], material: MeshStandardMaterial): Mesh {
-  const mesh = new Mesh(new BoxGeometry(x[1] - x[0], y[1] - y[0], z[1] - z[0]), material);
+  const geometry = new BoxGeometry(x[1] - x[0], y[1] - y[0], z[1] - z[0]);
+  const mesh = new Mesh(geometry, material);
+  mesh.add(new LineSegments(new EdgesGeometry(geometry), EDGES));
   mesh.position.set((x[0] + x[1]) / 2, (y[0] + y[1]) / 2, (z[0] + z[1]) / 2);
   return mesh;
 }
