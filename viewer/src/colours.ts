@@ -12,6 +12,8 @@ function ramp(stops: Rgb[], t: number): Rgb {
   return [0, 1, 2].map((k) => Math.round(stops[i][k] + f * (stops[i + 1][k] - stops[i][k]))) as Rgb;
 }
 
+const DISTANCE: Rgb[] = [[36, 84, 130], [108, 157, 200], [196, 219, 237], [250, 249, 246], [250, 216, 172], [233, 152, 76], [178, 82, 14]]; // outside, surface, inside
+
 const css = ([r, g, b]: Rgb) => `rgb(${r}, ${g}, ${b})`;
 
 /** Quality relative to the best of the page: 1 green, 0 red. */
@@ -24,5 +26,11 @@ export function heatRgb(relative: number): Rgb {
   return ramp(VIRIDIS, relative);
 }
 
+/** Signed distance relative to the largest shown: -1 outside, 0 on the surface, 1 inside. */
+export function distanceColour(relative: number): string {
+  return css(ramp(DISTANCE, (relative + 1) / 2));
+}
+
+export const DISTANCE_GRADIENT = `linear-gradient(to right, ${DISTANCE.map(css).join(", ")})`;
 export const HEAT_GRADIENT = `linear-gradient(to right, ${VIRIDIS.map(css).join(", ")})`;
 export const QUALITY_GRADIENT = `linear-gradient(to right, ${GREEN_RED.map(css).join(", ")})`;

@@ -7,10 +7,13 @@ export interface Slider {
   set: (value: number) => void;
 }
 
+let sliders = 0;
+
 /** A labelled slider that says its value in words, to eyes and to screen readers. */
 export function slider(label: string, range: { min: number; max: number; step: number; value: number }, text: (value: number) => string, changed: (value: number) => void): Slider {
-  const output = h("output", {}, text(range.value));
-  const input = h("input", { type: "range", min: range.min, max: range.max, step: range.step, value: range.value, "aria-valuetext": text(range.value) });
+  const id = `slider-${++sliders}`; // an output is labelable too: the label must name the input
+  const output = h("output", { for: id }, text(range.value));
+  const input = h("input", { type: "range", id, min: range.min, max: range.max, step: range.step, value: range.value, "aria-valuetext": text(range.value) });
   const say = () => {
     output.textContent = text(input.valueAsNumber);
     input.setAttribute("aria-valuetext", output.textContent);
@@ -23,7 +26,7 @@ export function slider(label: string, range: { min: number; max: number; step: n
     input.valueAsNumber = value;
     say();
   };
-  return { element: h("label", { class: "slider" }, h("span", {}, h("span", {}, label), output), input), input, set };
+  return { element: h("div", { class: "slider" }, h("span", {}, h("label", { for: id }, label), output), input), input, set };
 }
 
 export function tick(label: string, value: boolean, changed: (value: boolean) => void, className = "tick"): HTMLLabelElement {

@@ -14,7 +14,7 @@ interface Row {
 }
 
 const BINS = 36;
-const ROW_HEIGHT = 74;
+const ROW_HEIGHT = 74, FEW_ROWS_HEIGHT = 120;
 
 /** One histogram per row over a shared axis. Values and means in units of the axis. */
 export function stackedHistograms(rows: Row[], label: string, width: number): Element {
@@ -28,7 +28,7 @@ export function stackedHistograms(rows: Row[], label: string, width: number): El
   const empty = rows.filter((row) => row.values.length === 0).map((row) => ({ row: row.label }));
   const narrow = width < 520;
   return Plot.plot({
-    width, height: rows.length * ROW_HEIGHT + 60, marginLeft: narrow ? 42 : 46, marginRight: narrow ? 62 : 92, marginBottom: 42, marginTop: 14,
+    width, height: rows.length * (rows.length < 4 ? FEW_ROWS_HEIGHT : ROW_HEIGHT) + 60, marginLeft: narrow ? 42 : 46, marginRight: narrow ? 62 : 92, marginBottom: 42, marginTop: 14,
     ariaLabel: "Histograms of graspability by stage",
     style: { fontSize: "12px" },
     fy: { domain: rows.map((row) => row.label), label: null, padding: 0.16 },
@@ -69,7 +69,6 @@ export function stageHistograms(stages: Stage[]): HTMLElement | null {
     legend: key([["run", COLOURS.run], ...(control.length ? [["control", COLOURS.control, "outline"] as [string, string, "outline"]] : []), ...(prior ? [["prior set", COLOURS.prior] as [string, string]] : [])]),
     draw: (width) => stackedHistograms(rows, `graspability / mean of ${named}`, width),
     numbers: { header: ["stage", "objects", "10th percentile", "median", "90th percentile"], rows: rows.map((row) => [row.label, String(row.values.length), ...[0.1, 0.5, 0.9].map((q) => quantile(row.values, q))]) },
-    className: "wide",
   });
 }
 

@@ -42,14 +42,17 @@ export function kappaFigure(stages: Stage[]): HTMLElement | null {
     Plot.lineY(data, { x: "stage", y: "value", stroke: colour, strokeWidth: 2.2 }),
     Plot.dot(data, { x: "stage", y: "value", fill: colour, r: 3.6, title: (d: Point) => `${d.label}: ${d.value.toFixed(3)} (${d.low.toFixed(3)} to ${d.high.toFixed(3)})` }),
   ];
+  // Lines need no zero; the bands, a few hundredths wide, need room.
+  const ends = [...run, ...other, ...priorPoint].flatMap((d) => [d.low, d.high]).filter(Number.isFinite);
+  const bottom = Math.min(...ends) > 0.5 ? Math.min(...ends) - 0.1 : 0;
+  const top = Math.max(1, ...ends) + 0.02;
   const draw = (width: number) => Plot.plot({
-    width, height: Math.min(380, Math.max(260, width * 0.46)), marginLeft: 46, marginBottom: 42, marginTop: 26, marginRight: 16,
+    width, height: Math.min(430, Math.max(260, width * 0.72)), marginLeft: 46, marginBottom: 42, marginTop: 26, marginRight: 16,
     ariaLabel: "Kappa per episode",
     style: { fontSize: "12px" },
     x: { type: "point", domain, label: "episode", padding: 0.4, labelAnchor: "center", labelArrow: "none" },
-    y: { label: `κ: mean graspability / ${named}`, grid: true, zero: true, nice: true, labelArrow: "none" },
+    y: { label: `κ: mean graspability / ${named}`, grid: true, domain: [bottom, top], nice: true, labelArrow: "none" },
     marks: [
-      Plot.ruleY([0], { stroke: COLOURS.grid }),
       Plot.ruleY([1], { stroke: COLOURS.ink, strokeOpacity: 0.35, strokeDasharray: "3 4" }),
       ...band(other, COLOURS.control),
       ...band(run, COLOURS.run),
@@ -71,6 +74,5 @@ export function kappaFigure(stages: Stage[]): HTMLElement | null {
     legend: key(keys),
     draw,
     numbers: { header: ["stage", "samples", "scored", `graspability, ${MILLI_UNIT}`, "/ prior set", "/ episode 0", "/ control"], rows },
-    className: "wide",
   });
 }

@@ -72,16 +72,15 @@ function summary(losses: Losses[]): string[][] {
   });
 }
 
-/** Losses, with gradient norms, rates and singular values folded away. */
-export function lossFigure(all: Losses[], control: boolean): HTMLElement | null {
+/** Losses, with gradient norms, rates, singular values and the control's losses folded away. */
+export function lossFigure(all: Losses[], control = false): HTMLElement | null {
   const losses = all.filter((l) => l.control === control).sort((a, b) => a.episode - b.episode);
   if (!has(losses, LOSSES)) return null;
   const element = figure({
     title: control ? "Losses of the control" : "Losses",
     legend: key([["discriminator", "var(--run)", "line"], ["generator", "var(--control)", "line"]]),
     draw: (width) => lossChart(losses, LOSSES, false, "loss", width, 260),
-    numbers: { header: ["", "last update", "discriminator", "generator", "gradient, d.", "gradient, g.", "largest σ"], rows: summary(losses) },
-    caption: "Numbers below: means of the last ten records of each episode.",
+    numbers: { header: ["last ten records", "last update", "discriminator", "generator", "gradient, d.", "gradient, g.", "largest σ"], rows: summary(losses) },
   });
   const more: [string, Curve[], string][] = [["Gradient norms", GRADIENTS, "2-norm over all parameters"], ["Learning rates", RATES, "learning rate"], ["Singular values", SIGMA, "largest σ of a discriminator's weight"]];
   const folded = more.filter(([, curves]) => has(losses, curves));
@@ -91,5 +90,7 @@ export function lossFigure(all: Losses[], control: boolean): HTMLElement | null 
       return h("div", {}, inner);
     })));
   }
+  const twin = control ? null : lossFigure(all, true);
+  if (twin) element.append(details("Losses of the control", twin));
   return element;
 }

@@ -60,6 +60,5 @@ export function pairedScatter(pairs: PairPoint[]): HTMLElement | null {
         ],
       });
     },
-    numbers: { header: ["object", `before, ${MILLI_UNIT}`, `after, ${MILLI_UNIT}`, "change"], rows: pairs.map((p) => [p.name, milli(p.before, 3), milli(p.after, 3), p.before > 0 ? `${(100 * (p.after / p.before - 1)).toFixed(1).replace("-", "−")} %` : "–"]) },
   });
 }

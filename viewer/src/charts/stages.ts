@@ -86,6 +86,7 @@ export function rejectionFigure(stages: Stage[]): HTMLElement | null {
     const total = s.samples || s.statuses.reduce((sum, [, k]) => sum + k, 0);
     return { stage: s.label, reason, share: n / total, title: `${s.label}: ${n} of ${total} ${reason}` };
   }));
+  const digits = Math.max(...counted.map((s) => rejectedShare(s) ?? 0)) < 0.05 ? 1 : 0;
   const colour = (reason: string) => REASON_COLOURS[reasons.indexOf(reason) % REASON_COLOURS.length];
   return figure({
     title: "Rejection by reason",
@@ -93,7 +94,7 @@ export function rejectionFigure(stages: Stage[]): HTMLElement | null {
     legend: key(reasons.map((reason) => [reason, colour(reason)])),
     draw: (width) => Plot.plot({
       width, height: counted.length * 26 + 50, marginLeft: 84, marginRight: 20, marginBottom: 40, marginTop: 6, ariaLabel: "Rejected samples by reason and stage", style: { fontSize: "12px" },
-      x: { label: "share of samples", labelAnchor: "center", labelArrow: "none", tickFormat: (t: number) => percent(t, t > 0 && t < 0.01 ? 1 : 0), grid: true, ticks: 5 },
+      x: { label: "share of samples", labelAnchor: "center", labelArrow: "none", tickFormat: (t: number) => percent(t, digits), grid: true, ticks: 5 },
       y: { domain: counted.map((s) => s.label), label: null, padding: 0.3 },
       marks: [Plot.barX(bars, { y: "stage", x: "share", fill: (d: { reason: string }) => colour(d.reason), title: "title" }), Plot.ruleX([0], { stroke: COLOURS.ink, strokeOpacity: 0.5 })],
     }),

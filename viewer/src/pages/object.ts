@@ -88,7 +88,7 @@ function setUpCamera(host: HTMLElement, bounds: ReturnType<typeof boundsOf>, red
   const camera = new PerspectiveCamera(27, 1, 0.01 * bounds.extent, 60 * bounds.extent);
   camera.up.set(0, 0, 1);
   const centre = new Vector3(...[0, 1, 2].map((k) => (bounds.min[k] + bounds.max[k]) / 2) as [number, number, number]);
-  camera.position.copy(centre).add(new Vector3(1.5, -3.1, 1.65).multiplyScalar(bounds.extent * 1.02));
+  camera.position.copy(centre).add(new Vector3(1.5, -3.1, 1.65).multiplyScalar(bounds.extent * 0.84));
   const controls = new OrbitControls(camera, host);
   controls.target.copy(centre);
   controls.enableDamping = false;
@@ -166,10 +166,10 @@ export function objectPage(report: Report, index: number): Page {
     h("div", { class: "object-grid" },
       h("div", { class: "object-main" }, surface ? host : null,
         surface ? h("p", { class: "note hint" }, "Drag to turn; click first, then the wheel zooms; click an axis to choose its grasp.") : null,
-        h("div", { class: "under" }, buttons(object, surface), surface ? translucent : null),
-        section.element),
+        h("div", { class: "under" }, buttons(object, surface), surface ? translucent : null)),
       h("div", { class: "side" }, grasps?.element ?? h("section", { class: "panel-box" }, h("h2", {}, "Grasps"), h("p", { class: "note" }, "No grasps of this object are stored.")),
-        sides.length > 1 ? heatControls(object, changed, redraw) : null, ...tables)));
+        sides.length > 1 ? heatControls(object, changed, redraw) : null, ...tables),
+      section.element));
   return {
     title: object.name,
     element,

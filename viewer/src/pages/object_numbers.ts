@@ -3,13 +3,13 @@ import { h } from "../dom";
 import { count, fixed, known, milli, MILLI_UNIT, NONE, percent } from "../format";
 
 function rowsOf(rows: [string, ...string[]][], header: string[] | null): HTMLElement {
-  return h("table", { class: "numbers" },
+  return h("table", { class: header ? "numbers pair" : "numbers" },
     header ? h("thead", {}, h("tr", {}, ...header.map((text) => h("th", { scope: "col" }, text)))) : null,
     h("tbody", {}, ...rows.map(([label, ...cells]) => h("tr", {}, h("th", { scope: "row" }, label), ...cells.map((cell) => h("td", {}, cell))))));
 }
 
 function interval(score: Score | null): string {
-  return known(score?.ci_low) && known(score?.ci_high) ? `${milli(score!.ci_low)} to ${milli(score!.ci_high)}` : NONE;
+  return known(score?.ci_low) && known(score?.ci_high) ? `${milli(score!.ci_low)}–${milli(score!.ci_high)}` : NONE;
 }
 
 function change(before: Score | null | undefined, after: Score | null): string {

@@ -1,6 +1,7 @@
 import { radios, slider, tick } from "../controls";
 import { type Axis, distanceTree, outline, PLANE_AXES, signedDistances } from "../data/section";
-import { sectionChart } from "../charts/section";
+import { niceStep, sectionChart, STEPS } from "../charts/section";
+import { DISTANCE_GRADIENT } from "../colours";
 import { h } from "../dom";
 import { fixed } from "../format";
 import type { ObjectPanel } from "../three/object_panel";
@@ -28,7 +29,8 @@ export function sectionFigure(panels: ObjectPanel[], bounds: Bounds, extent: num
   let axis: Axis = 1, share = 0.5, inView = false, timer = 0;
   const trees = panels.map((panel) => distanceTree(panel.mesh));
   const charts = panels.map(() => h("div", { class: "section-chart" }));
-  const at = () => bounds.min[axis] + share * (bounds.max[axis] - bounds.min[axis]);
+  const at = (where = share) => bounds.min[axis] + where * (bounds.max[axis] - bounds.min[axis]);
+  const step = niceStep((extent * 1000 * panels[0].shape.metres_per_unit) / 22);
   const millimetres = (panel: ObjectPanel) => 1000 * panel.shape.metres_per_unit;
 
   const draw = (size: number) => {
@@ -38,7 +40,7 @@ export function sectionFigure(panels: ObjectPanel[], bounds: Bounds, extent: num
       const pieces = outline(panel.mesh, axis, at());
       const grid = signedDistances(trees[i], pieces, axis, at(), low, high, size);
       const label = `${panels.length > 1 ? `${panel.shape.label ?? "after"}, ` : ""}${AXES[axis]} = ${position()}`;
-      charts[i].replaceChildren(sectionChart(grid, pieces, { mm: millimetres(panel), u: AXES[u], v: AXES[v], label, width: charts[i].clientWidth || 340, extent }));
+      charts[i].replaceChildren(h("p", { class: "note" }, label), sectionChart(grid, pieces, { mm: millimetres(panel), u: AXES[u], v: AXES[v], label, width: charts[i].clientWidth || 340, step }));
       const centre = [0, 1, 2].map((k) => (bounds.min[k] + bounds.max[k]) / 2) as [number, number, number];
       panel.showCut(inView ? { axis, at: at(), pieces, centre } : null);
     });
@@ -53,11 +55,11 @@ export function sectionFigure(panels: ObjectPanel[], bounds: Bounds, extent: num
     clearTimeout(timer);
     timer = window.setTimeout(() => draw(FINE), REST_MS);
   };
-  const position = () => `${fixed(at() * millimetres(panels[0]), 1)} mm`;
-  const positionSlider = slider("Position", { min: 0, max: 100, step: 0.5, value: 50 }, (value) => {
+  const position = (where = share) => `${fixed(at(where) * millimetres(panels[0]), 1)} mm`;
+  const positionSlider = slider("Position", { min: 0, max: 100, step: 0.5, value: 50 }, (value) => position(value / 100), (value) => {
     share = value / 100;
-    return position();
-  }, () => update(true));
+    update(true);
+  });
   const axisChoice = radios<"0" | "1" | "2">("Cut perpendicular to", "1", [["0", "x"], ["1", "y"], ["2", "z"]], (value) => {
     axis = Number(value) as Axis;
     positionSlider.set(positionSlider.input.valueAsNumber);
@@ -72,7 +74,8 @@ export function sectionFigure(panels: ObjectPanel[], bounds: Bounds, extent: num
     h("h2", {}, "Cross-section of the signed distance"),
     h("div", { class: "control-row" }, axisChoice, positionSlider.element, viewTick),
     h("div", { class: "section-charts" }, ...charts),
-    h("p", { class: "note" }, "Exact distance to the surface of the mesh, positive inside, millimetres at the size at which grasps were measured. The black line is the surface."));
+    h("div", { class: "legend" }, h("span", {}, `${fixed(-STEPS * step, 0)} mm, outside`), h("i", { style: `background:${DISTANCE_GRADIENT}` }), h("span", {}, `inside, ${fixed(STEPS * step, 0)} mm`)),
+    h("p", { class: "note" }, `A contour every ${step} mm. Exact distance to the surface of the mesh, positive inside, millimetres at the size at which grasps were measured. The black line is the surface.`));
   watcher.observe(element);
   return { element, dispose: () => { clearTimeout(timer); watcher.disconnect(); } };
 }

@@ -9,6 +9,7 @@ import { type Estimate, meanOf, pairedReduction, ratio, stagesOf } from "../data
 import { details, h, table } from "../dom";
 import { count, fixed, known, milli, MILLI_UNIT, NONE, percent, plusMinus } from "../format";
 import { objectLink, type Page } from "../router";
+import { exampleFigure } from "./examples";
 
 interface Headline {
   value: string;
@@ -95,8 +96,18 @@ function objectFigures(report: Report): (HTMLElement | null)[] {
 
 function objectTable(report: Report): HTMLElement | null {
   if (!report.objects.length) return null;
-  const rows = report.objects.map((o) => [o.name, o.status, milli(o.score?.graspability, 3), o.score && known(o.score.ci_low) && known(o.score.ci_high) ? `${milli(o.score.ci_low)} to ${milli(o.score.ci_high)}` : NONE, milli(o.score?.mean, 3), percent(o.score?.fraction_nonzero), count(o.score?.num_grasps)]);
-  const element = table(["object", "status", `graspability, ${MILLI_UNIT}`, "95 % interval", `mean quality, ${MILLI_UNIT}`, "quality > 0", "grasps"], rows, "Scores of all objects");
+  const paired = report.kind === "perturbed";
+  const header = paired
+    ? ["object", "status", `before, ${MILLI_UNIT}`, `after, ${MILLI_UNIT}`, "change", "95 % interval after", "quality > 0", "grasps"]
+    : ["object", "status", `graspability, ${MILLI_UNIT}`, "95 % interval", `mean quality, ${MILLI_UNIT}`, "quality > 0", "grasps"];
+  const rows = report.objects.map((o) => {
+    const score = o.score, before = graspability(o.pair), after = graspability(o);
+    const interval = known(score?.ci_low) && known(score?.ci_high) ? `${milli(score!.ci_low)}–${milli(score!.ci_high)}` : NONE;
+    const change = known(before) && known(after) && before > 0 ? percent(after / before - 1, 1) : NONE;
+    const middle = paired ? [milli(before, 3), milli(after, 3), change, interval] : [milli(after, 3), interval, milli(score?.mean, 3)];
+    return [o.name, o.status, ...middle, percent(score?.fraction_nonzero), count(score?.num_grasps)];
+  });
+  const element = table(header, rows, "Scores of all objects");
   element.querySelectorAll("tbody th").forEach((cell, i) => cell.replaceChildren(h("a", { href: objectLink(i) }, report.objects[i].name)));
   return h("section", { class: "figure wide" }, h("h2", {}, "Scores"), element);
 }
@@ -129,15 +140,16 @@ export function overviewPage(report: Report): Page {
   const stages = report.run?.stages ?? [];
   const losses = report.run?.losses ?? [];
   const pairs = pairPoints(report.objects);
+  const examples = exampleFigure(report);
   const figures = report.kind === "run"
-    ? [kappaFigure(stages), stageHistograms(stages), varietyFigure(stages), rejectionFigure(stages), lossFigure(losses, false), lossFigure(losses, true)]
+    ? [kappaFigure(stages), stageHistograms(stages), varietyFigure(stages), rejectionFigure(stages), lossFigure(losses)]
     : report.kind === "perturbed"
       ? [pairedHistograms(pairs), pairedScatter(pairs), objectTable(report)]
       : objectFigures(report);
+  const toGallery = report.objects.length ? h("a", { href: "#/gallery", class: "button" }, `See all ${count(report.objects.length)} objects`) : null;
   const element = h("main", { class: "overview" },
-    h("div", { class: "page-head" }, h("h1", { tabindex: -1 }, report.title || "Report"), h("p", { class: "lead" }, lead)),
-    missingNotice(report), headlineTiles(tiles),
-    report.objects.length ? h("p", { class: "to-gallery" }, h("a", { href: "#/gallery", class: "button" }, `See the ${count(report.objects.length)} objects`)) : null,
-    h("div", { class: "figures" }, ...figures, provenance(report)));
-  return { title: "", element };
+    h("div", { class: "page-head with-button" }, h("div", {}, h("h1", { tabindex: -1 }, report.title || "Report"), h("p", { class: "lead" }, lead)), toGallery),
+    headlineTiles(tiles), missingNotice(report),
+    h("div", { class: "figures" }, examples?.element, ...figures, provenance(report)));
+  return { title: "", element, mounted: examples?.mounted, dispose: examples?.dispose };
 }

@@ -88,6 +88,7 @@ export class Surface {
     this.renderer.clear();
     for (const view of this.views()) {
       const box = view.element.getBoundingClientRect();
+      if (box.width < 2 || box.height < 2) continue;
       const left = box.left - base.left;
       const bottom = base.bottom - box.bottom;
       if (left + box.width <= 0 || left >= width || bottom + box.height <= 0 || bottom >= height) continue;

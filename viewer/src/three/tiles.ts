@@ -1,6 +1,6 @@
 import { type BufferGeometry, Group, Mesh as ThreeMesh, MeshStandardMaterial, PerspectiveCamera, DoubleSide } from "three";
 import { meshOf } from "../data/mesh";
-import type { ObjectRecord } from "../data/report";
+import type { Shape } from "../data/report";
 import { shade } from "./geometry";
 import { cssColour, litScene } from "./scene";
 import { Surface, type View } from "./surface";
@@ -11,11 +11,16 @@ export interface Turn {
 }
 
 const START: Turn = { yaw: -0.55, pitch: 0 };
-const DECODE_MS = 10; // per frame: scrolling stays fluid while objects arrive
+// Time for decoding per frame: little, so that scrolling stays fluid while objects arrive; more where drawing itself is
+// slow (no GPU), or the last object would come late.
+const DECODE_MS = 10, MOST_DECODE_MS = 150;
 const KEEP_GEOMETRIES = 200;
 const MARGIN = 240; // how far the canvas reaches beyond the window, so that scrolling finds it drawn
 
-/** Draws the tiles that are on the screen, each in the picture of its element. */
+/**
+ * Draws the shapes whose pictures are on the screen: elements with the shape's index as data-object. `whole`: all of
+ * them at once, for a host that is no higher than a screen or two.
+ */
 export class TilePictures {
   together = true;
   private readonly camera = new PerspectiveCamera(27, 1, 0.1, 20);
@@ -29,10 +34,11 @@ export class TilePictures {
   private readonly turns = new Map<number, Turn>();
   private shared: Turn = { ...START };
   private deadline = 0;
+  private lastFrame = 0;
   private waiting = false;
   readonly surface: Surface | null;
 
-  constructor(private readonly host: HTMLElement, private readonly objects: ObjectRecord[]) {
+  constructor(private readonly host: HTMLElement, private readonly shapes: Shape[], private readonly whole = false) {
     this.camera.up.set(0, 0, 1);
     this.camera.position.set(0, -4.1, 1.75);
     this.camera.lookAt(0, 0, 0);
@@ -56,11 +62,14 @@ export class TilePictures {
     this.invalidate();
   }
 
-  /** The pictures now on the page: elements with data-object. */
+  /** The pictures now on the page. */
   watch(pictures: HTMLElement[]): void {
     this.observer.disconnect();
     this.visible.clear();
-    for (const picture of pictures) this.observer.observe(picture);
+    for (const picture of pictures) {
+      if (this.whole) this.visible.set(picture, Number(picture.dataset.object));
+      else this.observer.observe(picture);
+    }
     this.invalidate();
   }
 
@@ -98,10 +107,13 @@ export class TilePictures {
   // would be larger than browsers allow.
   private place(canvas: HTMLCanvasElement): { width: number; height: number } {
     const box = this.host.getBoundingClientRect();
-    const height = Math.min(this.host.clientHeight, window.innerHeight + 2 * MARGIN);
+    const height = this.whole ? this.host.clientHeight : Math.min(this.host.clientHeight, window.innerHeight + 2 * MARGIN);
     const top = Math.round(Math.min(Math.max(0, -box.top - MARGIN), this.host.clientHeight - height));
     canvas.style.transform = `translateY(${top}px)`;
-    this.deadline = performance.now() + DECODE_MS;
+    const now = performance.now();
+    const interval = this.waiting ? now - this.lastFrame : 0;
+    this.deadline = now + Math.min(MOST_DECODE_MS, Math.max(DECODE_MS, 0.6 * interval));
+    this.lastFrame = now;
     this.waiting = false;
     return { width: this.host.clientWidth, height };
   }
@@ -138,7 +150,7 @@ export class TilePictures {
       this.waiting = true;
       return null;
     }
-    const mesh = meshOf(this.objects[object]);
+    const mesh = meshOf(this.shapes[object]);
     const geometry = mesh ? shade(mesh).geometry : null;
     this.geometries.set(object, geometry);
     if (this.geometries.size > Math.max(KEEP_GEOMETRIES, 2 * this.visible.size)) {
