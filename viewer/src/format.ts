@@ -21,6 +21,11 @@ export function percent(value: Num | undefined, digits = 0): string {
   return known(value) ? `${fixed(100 * value, digits)}${THIN}%` : NONE;
 }
 
+/** A name cut to fit into a chart, where text does not wrap. */
+export function short(text: string, length = 18): string {
+  return text.length > length ? `${text.slice(0, length - 1)}…` : text;
+}
+
 /** Graspability is a small number: shown in thousandths everywhere, the unit beside it. */
 export function milli(value: Num | undefined, digits = 2): string {
   return known(value) ? fixed(1000 * value, digits) : NONE;

@@ -1,7 +1,7 @@
 import * as Plot from "@observablehq/plot";
 import type { Stage } from "../data/report";
 import { binEdges, histogram, meanOf, stagesOf } from "../data/statistics";
-import { known, percent } from "../format";
+import { known, percent, short } from "../format";
 import { COLOURS, figure, key } from "./figure";
 
 interface Row {
@@ -31,7 +31,7 @@ export function stackedHistograms(rows: Row[], label: string, width: number): El
     width, height: rows.length * (rows.length < 4 ? FEW_ROWS_HEIGHT : ROW_HEIGHT) + 60, marginLeft: narrow ? 42 : 46, marginRight: narrow ? 62 : 92, marginBottom: 42, marginTop: 14,
     ariaLabel: "Histograms of graspability by stage",
     style: { fontSize: "12px" },
-    fy: { domain: rows.map((row) => row.label), label: null, padding: 0.16 },
+    fy: { domain: rows.map((row) => row.label), label: null, padding: 0.16, tickFormat: (t: string) => short(t, narrow ? 9 : 13) },
     x: { domain: [0, edges[edges.length - 1]], label, labelAnchor: "center", labelArrow: "none", grid: true },
     y: { label: null, ticks: 2, tickFormat: (t: number) => percent(t), insetTop: 4 },
     marks: [

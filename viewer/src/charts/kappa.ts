@@ -36,11 +36,14 @@ export function kappaFigure(stages: Stage[]): HTMLElement | null {
   // The control leaves from episode 0, which it shares with the run.
   const other = control.length ? series(first ? [first, ...control] : control) : [];
   const priorPoint = prior ? [point("prior", prior, base)] : [];
+  const dots = (data: Point[], colour: string) => [
+    Plot.ruleX(data.filter((d) => d.high > d.low), { x: "stage", y1: "low", y2: "high", stroke: colour, strokeWidth: 1.5 }),
+    Plot.dot(data, { x: "stage", y: "value", fill: colour, r: 3.6, title: (d: Point) => `${d.label}: ${d.value.toFixed(3)} (${d.low.toFixed(3)} to ${d.high.toFixed(3)})` }),
+  ];
   const band = (data: Point[], colour: string) => [
     Plot.areaY(data, { x: "stage", y1: "low", y2: "high", fill: colour, fillOpacity: 0.16 }),
-    Plot.ruleX(data.filter((d) => d.high > d.low), { x: "stage", y1: "low", y2: "high", stroke: colour, strokeWidth: 1.5 }),
     Plot.lineY(data, { x: "stage", y: "value", stroke: colour, strokeWidth: 2.2 }),
-    Plot.dot(data, { x: "stage", y: "value", fill: colour, r: 3.6, title: (d: Point) => `${d.label}: ${d.value.toFixed(3)} (${d.low.toFixed(3)} to ${d.high.toFixed(3)})` }),
+    ...dots(data, colour),
   ];
   // Lines need no zero; the bands, a few hundredths wide, need room.
   const ends = [...run, ...other, ...priorPoint].flatMap((d) => [d.low, d.high]).filter(Number.isFinite);
@@ -56,7 +59,7 @@ export function kappaFigure(stages: Stage[]): HTMLElement | null {
       Plot.ruleY([1], { stroke: COLOURS.ink, strokeOpacity: 0.35, strokeDasharray: "3 4" }),
       ...band(other, COLOURS.control),
       ...band(run, COLOURS.run),
-      ...band(priorPoint, COLOURS.prior).slice(1),
+      ...dots(priorPoint, COLOURS.prior),
       Plot.text(run.filter((d) => Number.isFinite(d.value)).slice(-1), { x: "stage", y: "value", text: (d: Point) => d.value.toFixed(2), dy: 18, fontWeight: 600, fill: COLOURS.run }),
     ],
   });

@@ -2,7 +2,7 @@ import * as Plot from "@observablehq/plot";
 import type { Num, Stage } from "../data/report";
 import { stagesOf } from "../data/statistics";
 import { h } from "../dom";
-import { count, fixed, known, percent } from "../format";
+import { count, fixed, known, percent, short } from "../format";
 import { COLOURS, figure, key } from "./figure";
 
 interface Measure {
@@ -95,7 +95,7 @@ export function rejectionFigure(stages: Stage[]): HTMLElement | null {
     draw: (width) => Plot.plot({
       width, height: counted.length * 26 + 50, marginLeft: 84, marginRight: 20, marginBottom: 40, marginTop: 6, ariaLabel: "Rejected samples by reason and stage", style: { fontSize: "12px" },
       x: { label: "share of samples", labelAnchor: "center", labelArrow: "none", tickFormat: (t: number) => percent(t, digits), grid: true, ticks: 5 },
-      y: { domain: counted.map((s) => s.label), label: null, padding: 0.3 },
+      y: { domain: counted.map((s) => s.label), label: null, padding: 0.3, tickFormat: (t: string) => short(t, 11) },
       marks: [Plot.barX(bars, { y: "stage", x: "share", fill: (d: { reason: string }) => colour(d.reason), title: "title" }), Plot.ruleX([0], { stroke: COLOURS.ink, strokeOpacity: 0.5 })],
     }),
     numbers,

@@ -36,7 +36,7 @@ function runHeadline(report: Report): { lead: string; tiles: Headline[] } {
   if (!last) return { lead: "No episode has been scored.", tiles: [] };
   const mean = meanOf(last);
   const twin = control.find((s) => s.episode === last.episode);
-  const lead = `Mean graspability of ${last.label}: ${milli(mean!.value)} ± ${milli(mean!.half)}\u00a0${MILLI_UNIT} over ${count(last.graspability?.count)} objects, 95 % interval.`;
+  const lead = `Mean graspability of ${last.label}: (${milli(mean!.value)}\u00a0±\u00a0${milli(mean!.half)})\u00a0${MILLI_UNIT} over ${count(last.graspability?.count)} objects, 95 % interval.`;
   return {
     lead,
     tiles: [

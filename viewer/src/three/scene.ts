@@ -10,12 +10,12 @@ export interface LitScene {
 export function litScene(): LitScene {
   const scene = new Scene();
   const rig = new Group();
-  const key = new DirectionalLight(0xffffff, 2.5);
+  const key = new DirectionalLight(0xffffff, 2.6);
   key.position.set(-0.6, 0.9, 1);
   const fill = new DirectionalLight(0xffffff, 0.8);
   fill.position.set(1, -0.2, 0.6);
   rig.add(key, key.target, fill, fill.target);
-  const sky = new HemisphereLight(0xffffff, 0x8b8478, 1.5);
+  const sky = new HemisphereLight(0xffffff, 0x857f75, 1.25);
   sky.position.set(0, 0, 1);
   scene.add(sky, rig);
   return { scene, follow: (camera) => rig.quaternion.copy(camera.quaternion) };

@@ -40,6 +40,7 @@ function sharedRenderer(): WebGLRenderer | null {
 export class Surface {
   readonly canvas: HTMLCanvasElement;
   private frame = 0;
+  private marked = false;
   private readonly renderer: WebGLRenderer;
   private readonly resize: ResizeObserver;
 
@@ -67,9 +68,12 @@ export class Surface {
   }
 
   invalidate(): void {
-    this.frame ||= requestAnimationFrame(() => {
+    if (this.frame) return;
+    this.canvas.dataset.busy = "";
+    this.frame = requestAnimationFrame(() => {
       this.frame = 0;
       this.draw();
+      if (!this.frame) delete this.canvas.dataset.busy; // drawing may have asked for another frame
     });
   }
 
@@ -86,6 +90,7 @@ export class Surface {
     this.renderer.setClearColor(0x000000, 0);
     this.renderer.setScissor(0, 0, width, height);
     this.renderer.clear();
+    let drawn = 0;
     for (const view of this.views()) {
       const box = view.element.getBoundingClientRect();
       if (box.width < 2 || box.height < 2) continue;
@@ -96,8 +101,16 @@ export class Surface {
       this.renderer.setViewport(left, bottom, box.width, box.height);
       this.renderer.setScissor(left, bottom, box.width, box.height);
       this.renderer.render(view.scene, view.camera);
+      ++drawn;
     }
-    this.canvas.dataset.frames = String(Number(this.canvas.dataset.frames ?? 0) + 1);
+    if (drawn) this.markFirst();
+  }
+
+  // When objects were first on the screen, for the browser's own performance tools and the tests.
+  private markFirst(): void {
+    if (this.marked) return;
+    this.marked = true;
+    performance.mark("antigrasp-first-objects");
   }
 
   /** The canvas as PNG. Drawn in the same turn, because a canvas forgets its picture once it has been shown. */

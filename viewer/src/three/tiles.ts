@@ -13,7 +13,7 @@ export interface Turn {
 const START: Turn = { yaw: -0.55, pitch: 0 };
 // Time for decoding per frame: little, so that scrolling stays fluid while objects arrive; more where drawing itself is
 // slow (no GPU), or the last object would come late.
-const DECODE_MS = 10, MOST_DECODE_MS = 150;
+const DECODE_MS = 10, MOST_DECODE_MS = 150, FIRST_DECODE_MS = 80;
 const KEEP_GEOMETRIES = 200;
 const MARGIN = 240; // how far the canvas reaches beyond the window, so that scrolling finds it drawn
 
@@ -35,6 +35,7 @@ export class TilePictures {
   private shared: Turn = { ...START };
   private deadline = 0;
   private lastFrame = 0;
+  private fresh = true;
   private waiting = false;
   readonly surface: Surface | null;
 
@@ -66,6 +67,7 @@ export class TilePictures {
   watch(pictures: HTMLElement[]): void {
     this.observer.disconnect();
     this.visible.clear();
+    this.fresh = true;
     for (const picture of pictures) {
       if (this.whole) this.visible.set(picture, Number(picture.dataset.object));
       else this.observer.observe(picture);
@@ -112,7 +114,8 @@ export class TilePictures {
     canvas.style.transform = `translateY(${top}px)`;
     const now = performance.now();
     const interval = this.waiting ? now - this.lastFrame : 0;
-    this.deadline = now + Math.min(MOST_DECODE_MS, Math.max(DECODE_MS, 0.6 * interval));
+    this.deadline = now + Math.min(MOST_DECODE_MS, Math.max(this.fresh && this.visible.size ? FIRST_DECODE_MS : DECODE_MS, 0.6 * interval));
+    if (this.visible.size) this.fresh = false;
     this.lastFrame = now;
     this.waiting = false;
     return { width: this.host.clientWidth, height };

@@ -43,9 +43,6 @@ export function starMesh(n, radius) {
   return { positions, indices };
 }
 
-/** A box with sides 2 a, 2 b, 2 c as a star: its distances and its section are known on paper. */
-export const box = (a, b, c, n = 24) => starMesh(n, (x, y, z) => Math.min(a / Math.abs(x || 1e-12), b / Math.abs(y || 1e-12), c / Math.abs(z || 1e-12)));
-
 export const bumpy = (seed, n = 28) => starMesh(n, (x, y, z) =>
   0.3 + 0.06 * Math.sin(5 * x + seed) * Math.cos(4 * z - 2 * seed) + 0.05 * Math.sin(3 * y + 1.7 * seed) + 0.04 * Math.cos(2 * seed) * z * z);
 
