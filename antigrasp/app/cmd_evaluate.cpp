@@ -34,11 +34,7 @@ void WriteScores(const EvaluateFlags& flags, const MetricOptions& metric, const 
     return;
   }
   WriteFileAtomic(flags.out, csv);
-  MetricOptions copy = metric;
-  OptionTable table;
-  Bind(&table, &copy);
-  WriteFileAtomic(flags.out + ".metric.toml",
-                  "seed = " + std::to_string(flags.seed) + "\n\n" + table.Dump());
+  WriteFileAtomic(flags.out + ".metric.toml", MetricToml(metric, flags.seed));
 }
 
 // " +-0.00012 (95 %)"; nothing for a single object, which says nothing about the spread.

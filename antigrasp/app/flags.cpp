@@ -71,9 +71,14 @@ void OptionFlags::Apply(OptionTable* table) const {
 }
 
 MetricFlags::MetricFlags(CLI::App* command)
-    : preset_(AddName(command, "--preset", "default", "all constants: default, dexnet or egad")),
+    : command_(command),
+      preset_(AddName(command, "--preset", "default", "all constants: default, dexnet or egad")),
       noise_(AddName(command, "--noise", "", "noise alone: default, dexnet or none")),
       options_(MetricOptionFlags(command)) {}
+
+bool MetricFlags::given() const {
+  return options_.given() || command_->count("--preset") > 0 || command_->count("--noise") > 0;
+}
 
 MetricOptions MetricFlags::Resolve() const {
   MetricOptions options;

@@ -17,6 +17,7 @@ class OptionFlags {
   // Call after parsing: what was given, into a table with the same keys. InputError for a value out
   // of range.
   void Apply(OptionTable* table) const;
+  bool given() const { return !given_->empty(); }
 
  private:
   using Given = std::map<std::string, std::string>;  // key -> text
@@ -31,8 +32,10 @@ class MetricFlags {
   // Both after parsing.
   MetricOptions Resolve() const;
   const std::string& preset() const { return *preset_; }
+  bool given() const;  // whether any of them was on the command line
 
  private:
+  CLI::App* command_;
   std::shared_ptr<std::string> preset_, noise_;
   OptionFlags options_;
 };

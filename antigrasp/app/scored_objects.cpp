@@ -97,6 +97,13 @@ std::string ScoresCsv(const std::vector<ScoredObject>& scored, const ScoresCsvCo
   return csv;
 }
 
+std::string MetricToml(const MetricOptions& metric, std::uint64_t seed) {
+  MetricOptions copy = metric;
+  OptionTable table;
+  Bind(&table, &copy);
+  return "seed = " + std::to_string(seed) + "\n\n" + table.Dump();
+}
+
 std::string GraspsCsv(const std::vector<ScoredObject>& scored) {
   std::string csv =
       "object,grasp,p1x,p1y,p1z,n1x,n1y,n1z,p2x,p2y,p2z,n2x,n2y,n2z,axis_x,axis_y,axis_z,width,"

@@ -31,6 +31,8 @@ struct ScoresCsvColumns {
   const std::vector<ScoredObject>* baselines = nullptr;  // adds baseline and difference
 };
 std::string ScoresCsv(const std::vector<ScoredObject>& scored, const ScoresCsvColumns& columns);
+// What belongs beside a table of scores: the seed and every constant, as TOML.
+std::string MetricToml(const MetricOptions& metric, std::uint64_t seed);
 std::string GraspsCsv(const std::vector<ScoredObject>& scored);
 
 // "12,345 candidate grasps, 48 % kept; 20 % with nothing to close on, ...".

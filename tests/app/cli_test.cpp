@@ -8,6 +8,7 @@
 #include <set>
 
 #include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/csv_reader.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/inspect.h"
 #include "antigrasp/mesh/mesh_file.h"
@@ -236,7 +237,7 @@ TEST(Cli, ExportsSolidsInMillimetresAndLeavesTheRestOut) {
   const Outcome outcome =
       Antigrasp("export " + dir + "ball.ply " + dir + "open.ply --size-mm 80 --out " + dir + "out");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
-  EXPECT_EQ(FilesIn(folder / "out"), 1);
+  EXPECT_EQ(FilesIn(folder / "out"), 2);  // the ball and print.csv
   const TriangleMesh mesh = ReadMesh(folder / "out/ball.stl");
   EXPECT_NEAR(Bounds(mesh).Extent().maxCoeff(), 80.0, 1e-4);
   EXPECT_NEAR(Bounds(mesh).min.z(), 0.0, 1e-4);
@@ -245,6 +246,42 @@ TEST(Cli, ExportsSolidsInMillimetresAndLeavesTheRestOut) {
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.text.find("open.ply: open: 4 boundary edges"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "none"));
+}
+
+TEST(Cli, ExportChecksThePrintAndTurnsTheObjectWhenAsked) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteMesh(folder / "slab \"a,b\".stl", shapes::Box({1.0, 0.01, 0.5}));
+  WriteMesh(folder / "cube.stl", shapes::Cube());
+  const std::string common = "export " + dir + " --size-mm 50 --out " + dir;
+  const Outcome as_is = Antigrasp(common + "a --threads 1");
+  ASSERT_EQ(as_is.code, 0) << as_is.text;
+  EXPECT_NE(as_is.text.find("2 watertight; 1 with a wall below 0.8 mm, the thinnest 0.5 mm"),
+            std::string::npos)
+      << as_is.text;
+  ASSERT_EQ(Antigrasp("export " + dir + "cube.stl '" + dir + "slab \"a,b\".stl' --size-mm 50" +
+                      " --out " + dir + "p --pose print --format off --threads 2")
+                .code,
+            0);
+  EXPECT_EQ(ReadFile(folder / "a/print.csv"), ReadFile(folder / "p/print.csv"));
+  CsvReader csv(folder / "a/print.csv");
+  ASSERT_TRUE(csv.Next());
+  EXPECT_EQ(csv.Field(0), "cube.stl");
+  EXPECT_NEAR(*csv.Number(*csv.Column("wall_mm")), 50.0, 1e-3);
+  ASSERT_TRUE(csv.Next());
+  EXPECT_EQ(csv.Field(0), "slab \"a,b\".stl");
+  EXPECT_NEAR(*csv.Number(*csv.Column("wall_mm")), 0.5, 1e-3);
+  EXPECT_NEAR(*csv.Number(*csv.Column("size_y_mm")), 0.5, 1e-6);
+  EXPECT_NEAR(*csv.Number(*csv.Column("print_z_mm")), 0.5, 1e-6);
+  EXPECT_EQ(*csv.Number(*csv.Column("overhang_share")), 0.0);
+  EXPECT_NE(csv.Field(*csv.Column("notes")).find("thinnest wall is 0.5 mm"), std::string::npos);
+  EXPECT_FALSE(csv.Next());
+  // As it is the slab stands on its edge, in the suggested pose it lies.
+  EXPECT_NEAR(Bounds(ReadMesh(folder / "a/slab \"a,b\".stl")).max.z(), 25.0, 1e-4);
+  EXPECT_NEAR(Bounds(ReadMesh(folder / "p/slab \"a,b\".off")).max.z(), 0.5, 1e-4);
+  ExpectRefused("export " + dir + "cube.stl --out " + dir + "x --pose sideways", "sideways");
+  ExpectRefused("export " + dir + "cube.stl --out " + dir + "x --min-wall-mm -1", "min_wall_mm");
+  EXPECT_FALSE(fs::exists(folder / "x"));
 }
 
 TEST(Cli, PretrainedNetworksAreSampledByNameAndMakeSolids) {

@@ -1,0 +1,31 @@
+#include "antigrasp/app/report_settings.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "antigrasp/core/atomic_file.h"
+
+namespace antigrasp {
+
+ReportShape ShapeOf(TriangleMesh mesh, const Graspability& score) {
+  return {ScoreOf(score), std::move(mesh), score.scale, score.grasps};
+}
+
+std::string NumberText(double value) {
+  if (std::isnan(value)) return "";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+SavedMetric ReadSavedMetric(const std::string& path) {
+  SavedMetric saved;
+  saved.toml = ReadFile(path);
+  OptionTable table;
+  table.Add("seed", &saved.seed, "");
+  Bind(&table, &saved.metric);
+  table.ApplyKnown(saved.toml, path, "metric.");
+  return saved;
+}
+
+}  // namespace antigrasp
