@@ -18,6 +18,7 @@ void AddShapeCommand(CLI::App* app);
 void AddPosesCommand(CLI::App* app);
 void AddTrialCommand(CLI::App* app);
 void AddSheetCommand(CLI::App* app);
+void AddFigureCommand(CLI::App* app);
 void AddExportCommand(CLI::App* app);
 void AddGeneratorCommand(CLI::App* app);
 void AddInfoCommand(CLI::App* app);

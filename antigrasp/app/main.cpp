@@ -60,6 +60,7 @@ int Run(int argc, char** argv) {
   AddPosesCommand(&app);
   AddTrialCommand(&app);
   AddSheetCommand(&app);
+  AddFigureCommand(&app);
   AddExportCommand(&app);
   AddGeneratorCommand(&app);
   AddInfoCommand(&app);
