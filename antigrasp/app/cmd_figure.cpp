@@ -170,6 +170,31 @@ void AddFigure3(CLI::App* figure) {
   });
 }
 
+void AddFigure4(CLI::App* figure) {
+  struct Flags {
+    std::string run;
+    std::vector<int> episodes;
+    int examples = 4;
+  };
+  const auto own = std::make_shared<Flags>();
+  CLI::App* command = figure->add_subcommand(
+      "4", "A run's samples stage by stage, and how their graspability is distributed");
+  command->add_option("RUN", own->run, "folder of a run")->required();
+  command->add_option("--episodes", own->episodes, "those shown beside the prior set, e.g. 0 2 4")
+      ->check(CLI::Range(0, 1000));
+  command->add_option("--examples", own->examples, "objects of each stage: its first usable ones")
+      ->check(CLI::Range(1, 20))
+      ->capture_default_str();
+  const auto common = AddCommonFlags(command);
+  command->callback([own, common] {
+    common->Check();
+    const FigureOptions& options = common->options;
+    WriteRowFigure(common->out, RunFigure(own->run, own->episodes, own->examples, options.threads),
+                   options);
+    Done(*common);
+  });
+}
+
 }  // namespace
 
 void AddFigureCommand(CLI::App* app) {
@@ -180,6 +205,7 @@ void AddFigureCommand(CLI::App* app) {
   AddFigure1(figure);
   AddFigure2(figure);
   AddFigure3(figure);
+  AddFigure4(figure);
 }
 
 }  // namespace antigrasp

@@ -225,12 +225,4 @@ RowFigure PerturbFigure(const std::vector<std::string>& folders,
   return figure;
 }
 
-std::vector<double> ReadGraspabilities(const fs::path& path) {
-  CsvReader csv(path);
-  const std::size_t graspability = NeedColumn(csv, path, "graspability");
-  std::vector<double> values;
-  while (csv.Next()) values.push_back(csv.Number(graspability).value_or(kNone));
-  return values;
-}
-
 }  // namespace antigrasp

@@ -31,7 +31,11 @@ SdfFigure SdfFigureOf(const std::string& input, int resolution, int threads);
 RowFigure PerturbFigure(const std::vector<std::string>& folders,
                         const std::vector<std::string>& labels, int examples);
 
-// The graspability of every object of a scores.csv; NaN where there is none.
-std::vector<double> ReadGraspabilities(const std::filesystem::path& path);
+// One row a stage of a run that `antigrasp train` wrote: the first so many usable objects (made
+// again from the stage's checkpoint) and all graspabilities divided by the mean of episode 0, or of
+// the prior set while there is no episode 0. `episodes`: those shown; empty = all that the run is
+// to have. Stages that are not there yet are gaps.
+RowFigure RunFigure(const std::filesystem::path& run, const std::vector<int>& episodes,
+                    int examples, int threads);
 
 }  // namespace antigrasp

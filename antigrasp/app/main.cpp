@@ -11,6 +11,7 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/version.h"
 
 namespace antigrasp {
 namespace {
@@ -44,8 +45,7 @@ int Run(int argc, char** argv) {
       "Designs objects that look ordinary and that a parallel-jaw gripper cannot hold "
       "(Adversarial Grasp Objects, Wang et al. 2019)",
       "antigrasp");
-  app.set_version_flag("--version",
-                       std::string("antigrasp " ANTIGRASP_VERSION " (" ANTIGRASP_COMMIT ")"));
+  app.set_version_flag("--version", "antigrasp " + ProgramVersion() + " (" + ProgramCommit() + ")");
   app.require_subcommand(1);
   std::string topic;
   AddDatasetCommand(&app);

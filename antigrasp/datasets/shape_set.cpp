@@ -170,6 +170,11 @@ ShapeSet ReadShapeSet(const std::filesystem::path& path) {
 
 ShapeSetInfo ReadShapeSetInfo(const std::filesystem::path& path) { return Reader(path).Info(); }
 
+std::vector<std::string> ReadShapeNames(const std::filesystem::path& path) {
+  const Reader reader(path);
+  return reader.Names(reader.Info().count);
+}
+
 bool IsShapeSet(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;

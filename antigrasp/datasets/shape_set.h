@@ -33,6 +33,7 @@ struct ShapeSetInfo {
   double spacing = 0.0, truncation = 0.0;
 };
 ShapeSetInfo ReadShapeSetInfo(const std::filesystem::path& path);  // attributes only, no grids
-bool IsShapeSet(const std::filesystem::path& path);                // by content, never throws
+std::vector<std::string> ReadShapeNames(const std::filesystem::path& path);  // names, no grids
+bool IsShapeSet(const std::filesystem::path& path);  // by content, never throws
 
 }  // namespace antigrasp

@@ -9,6 +9,7 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/train/episode_loop.h"
+#include "antigrasp/train/provenance.h"
 
 namespace antigrasp {
 namespace {
@@ -64,14 +65,16 @@ void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder&
   WriteFileAtomic(control.Config(), checkpoint.config);
 }
 
-RunResult Finish(const RunConfig& config, const RunFolder& folder, RunObserver* observer) {
+RunResult Finish(const RunConfig& config, const RunFolder& folder, ProvenanceRecorder* recorder) {
   RunResult result;
-  result.stages = RunEpisodes(config, folder, observer);
-  if (!config.cem.control) return result;
-  const RunFolder control{folder.Control()};
-  if (!control.HoldsARun()) ForkControl(config, folder, control);
-  spdlog::info("control run: the same retraining on elites drawn at random");
-  result.control = RunEpisodes(ConfigOfRun(control.root), control, observer);
+  result.stages = RunEpisodes(config, folder, recorder);
+  if (config.cem.control) {
+    const RunFolder control{folder.Control()};
+    if (!control.HoldsARun()) ForkControl(config, folder, control);
+    spdlog::info("control run: the same retraining on elites drawn at random");
+    result.control = RunEpisodes(ConfigOfRun(control.root), control, recorder);
+  }
+  recorder->Finish();
   return result;
 }
 
@@ -92,16 +95,20 @@ RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver*
   Validate(config, "configuration");
   RequireSameModel(config);
   const GanTrainer probe = MakeTrainer(config);  // refuses a device that is not there, first
-  const ShapeSet prior = PriorOf(config, observer);
+  ProvenanceRecorder recorder(run, ProvenanceNow(config), observer);
+  const ShapeSet prior = PriorOf(config, &recorder);
   NetworkValuesOf(prior, config.model, config.prior_file);  // refuses an unusable set, too
   MakeFolder(folder);
   WriteShapeSet(run.Prior(), prior);
   WriteFileAtomic(run.Config(), ToToml(config));
-  return Finish(config, run, observer);
+  return Finish(config, run, &recorder);
 }
 
 RunResult ResumeRun(const fs::path& folder, RunObserver* observer) {
-  return Finish(ConfigOfRun(folder), RunFolder{folder}, observer);
+  const RunFolder run{folder};
+  const RunConfig config = ConfigOfRun(folder);
+  ProvenanceRecorder recorder(run, ReadProvenance(run), observer);
+  return Finish(config, run, &recorder);
 }
 
 }  // namespace antigrasp

@@ -13,7 +13,6 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
-#include "antigrasp/core/rng.h"
 #include "antigrasp/train/run_output.h"
 #include "antigrasp/train/scalar_log.h"
 #include "antigrasp/train/selection.h"
@@ -41,7 +40,6 @@ class EpisodeLoop {
   Selection Select(const ScoredStage& scored) const;
   void Record(const ScoredStage& scored, const Selection& selection);
   void BeginEpisode(int episode, const ScoredStage& scored, const Selection& selection);
-  std::uint64_t SampleSeed() const;  // of this episode's samples
   void Save(const fs::path& path, bool finished = false) const;
   int episode() const { return trainer_.episode(); }
   std::int64_t UpdatesSoFar() const;  // over all episodes
@@ -180,7 +178,8 @@ torch::Tensor EpisodeLoop::SampleStage() {
   const std::int64_t count = config_.cem.samples;
   std::vector<torch::Tensor> chunks;
   for (std::int64_t first = 0; first < count; first += kChunk) {
-    chunks.push_back(trainer_.Sample(SampleSeed(), first, std::min(kChunk, count - first)));
+    chunks.push_back(
+        trainer_.Sample(StageSeed(config_, episode()), first, std::min(kChunk, count - first)));
     progress(std::min(first + kChunk, count), count);
   }
   return torch::cat(chunks);
@@ -223,8 +222,9 @@ void EpisodeLoop::Record(const ScoredStage& scored, const Selection& selection) 
 void EpisodeLoop::BeginEpisode(int episode, const ScoredStage& scored, const Selection& selection) {
   losses_.clear();
   if (config_.cem.mode == "latent") {
-    const torch::Tensor z = trainer_.Latents(SampleSeed(), 0, config_.cem.samples)
-                                .index_select(0, torch::tensor(selection.elites, torch::kLong));
+    const torch::Tensor z =
+        trainer_.Latents(StageSeed(config_, trainer_.episode()), 0, config_.cem.samples)
+            .index_select(0, torch::tensor(selection.elites, torch::kLong));
     trainer_.BeginFixedEpisode(episode,
                                AroundElites(z, config_.cem.step, config_.cem.prior_fraction));
   } else {
@@ -232,10 +232,6 @@ void EpisodeLoop::BeginEpisode(int episode, const ScoredStage& scored, const Sel
     trainer_.BeginEpisode(episode, config_.cem.iterations, config_.cem.restart);
   }
   Save(folder_.Latest());
-}
-
-std::uint64_t EpisodeLoop::SampleSeed() const {
-  return RngStream(config_.seed, "stage", static_cast<std::uint64_t>(episode())).NextU64();
 }
 
 std::int64_t EpisodeLoop::UpdatesSoFar() const {

@@ -7,8 +7,8 @@ namespace antigrasp {
 namespace fs = std::filesystem;
 
 void RunFolder::Remove() const {
-  std::vector<fs::path> written = {Prior(),   PriorScores(),         Latest(), Statistics(), Stl(),
-                                   Control(), Events().parent_path()};
+  std::vector<fs::path> written = {Provenance(), Prior(), PriorScores(), Latest(),
+                                   Statistics(), Stl(),   Control(),     Events().parent_path()};
   for (const auto& entry : fs::directory_iterator(root)) {
     if (entry.path().filename().string().starts_with("episode_")) written.push_back(entry.path());
   }

@@ -10,6 +10,7 @@ struct RunFolder {
   std::filesystem::path root;
 
   std::filesystem::path Config() const { return root / "config.toml"; }
+  std::filesystem::path Provenance() const { return root / "provenance.toml"; }
   std::filesystem::path Prior() const { return root / "prior.h5"; }
   std::filesystem::path PriorScores() const { return root / "prior_scores.csv"; }
   std::filesystem::path Latest() const { return root / "checkpoint.pt"; }

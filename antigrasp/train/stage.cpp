@@ -9,6 +9,7 @@
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
+#include "antigrasp/core/rng.h"
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/train/similarity.h"
 
@@ -69,6 +70,20 @@ torch::Tensor NetworkValuesOf(const ShapeSet& set, const ModelOptions& model,
   return values;
 }
 
+std::uint64_t StageSeed(const RunConfig& config, int episode) {
+  return RngStream(config.seed, "stage", static_cast<std::uint64_t>(episode)).NextU64();
+}
+
+ScoredSample ScoreSample(const torch::Tensor& value, std::int64_t index, const RunConfig& config) {
+  const RemeshOptions remesh{.check_self_intersection = config.cem.check_self_intersection};
+  ScoredSample sample{Remesh(GridOf(value, config.model), remesh), {}};
+  if (sample.object.ok()) {
+    sample.score = EvaluateGraspability(sample.object.mesh, config.metric, config.seed,
+                                        static_cast<std::uint64_t>(index));
+  }
+  return sample;
+}
+
 ScoredStage ScoreStage(const torch::Tensor& values, const RunConfig& config,
                        const std::string& name, RunObserver* observer) {
   ScoredStage scored;
@@ -77,15 +92,13 @@ ScoredStage ScoreStage(const torch::Tensor& values, const RunConfig& config,
   scored.objects.resize(count);
   scored.scores.resize(count);
   scored.graspabilities.assign(count, kNaN);
-  const RemeshOptions remesh{.check_self_intersection = config.cem.check_self_intersection};
   ParallelFor(
       values.size(0), config.threads,
       [&](std::int64_t i) {
         const auto slot = static_cast<std::size_t>(i);
-        scored.objects[slot] = Remesh(GridOf(values[i], config.model), remesh);
-        if (!scored.objects[slot].ok()) return;
-        scored.scores[slot] = EvaluateGraspability(scored.objects[slot].mesh, config.metric,
-                                                   config.seed, static_cast<std::uint64_t>(i));
+        ScoredSample sample = ScoreSample(values[i], i, config);
+        scored.objects[slot] = std::move(sample.object);
+        scored.scores[slot] = std::move(sample.score);
         if (scored.scores[slot].status != GraspabilityStatus::kNotEvaluable) {
           scored.graspabilities[slot] = scored.scores[slot].value;
         }

@@ -22,8 +22,19 @@ struct ScoredStage {
   std::vector<double> graspabilities;  // NaN for rejected grids
 };
 
-// Remeshes and scores network values (paper III-B, VI-C). Object i's random draws depend on
-// (config.seed, i) only, so that stages compare with common random numbers.
+// One sample remeshed and, if it is a usable object, scored. Its random draws depend on
+// (config.seed, index) only. `value`: network values [1, n, n, n].
+struct ScoredSample {
+  RemeshResult object;
+  Graspability score;  // kNotEvaluable for a rejected grid
+};
+ScoredSample ScoreSample(const torch::Tensor& value, std::int64_t index, const RunConfig& config);
+
+// The seed of the latent vectors of an episode's samples.
+std::uint64_t StageSeed(const RunConfig& config, int episode);
+
+// Remeshes and scores network values (paper III-B, VI-C), value i as sample i: stages compare with
+// common random numbers.
 ScoredStage ScoreStage(const torch::Tensor& values, const RunConfig& config,
                        const std::string& name, RunObserver* observer);
 

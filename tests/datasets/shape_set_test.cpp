@@ -128,6 +128,7 @@ TEST(ShapeSet, InfoTellsTheAttributesWithoutTheGrids) {
   EXPECT_EQ(info.version, 1);
   EXPECT_EQ(info.spacing, 0.2);
   EXPECT_EQ(info.truncation, 0.125);
+  EXPECT_EQ(ReadShapeNames(folder / "a.h5"), set.names);
 }
 
 TEST(ShapeSet, WritingTwiceGivesTheSameBytes) {

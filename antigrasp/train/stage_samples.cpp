@@ -1,0 +1,72 @@
+#include "antigrasp/train/stage_samples.h"
+
+#include <torch/torch.h>
+
+#include "antigrasp/checkpoints/checkpoint.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/train/episode_loop.h"
+
+namespace antigrasp {
+namespace {
+
+std::string StageText(int stage) {
+  return stage < 0 ? "prior set" : "episode " + std::to_string(stage);
+}
+
+torch::Tensor PriorValues(const RunFolder& run, const RunConfig& config,
+                          const std::vector<std::int64_t>& indices) {
+  ShapeSet set = ReadShapeSet(run.Prior());
+  ShapeSet chosen;
+  for (const std::int64_t i : indices) {
+    if (i < 0 || i >= static_cast<std::int64_t>(set.grids.size())) {
+      throw InputError("no shape " + std::to_string(i), run.Prior().string(),
+                       "one of " + std::to_string(set.grids.size()));
+    }
+    chosen.grids.push_back(set.grids[static_cast<std::size_t>(i)]);
+  }
+  return NetworkValuesOf(chosen, config.model, run.Prior().string());
+}
+
+torch::Tensor SampledValues(const RunFolder& run, RunConfig config, int stage,
+                            const std::vector<std::int64_t>& indices, const ProgressFn& progress) {
+  config.device = "cpu";
+  GanTrainer trainer = MakeTrainer(config);
+  ReadNetworks(run.EpisodeCheckpoint(stage), [&](auto* archive) { trainer.LoadNetworks(archive); });
+  std::vector<torch::Tensor> values;
+  for (const std::int64_t i : indices) {
+    if (i < 0) throw InputError("sample " + std::to_string(i), run.root.string(), "0 or more");
+    values.push_back(trainer.Sample(StageSeed(config, stage), i, 1));
+    if (progress) progress(static_cast<std::int64_t>(values.size()), std::ssize(indices));
+  }
+  return torch::cat(values);
+}
+
+}  // namespace
+
+torch::Tensor StageValues(const RunFolder& run, const RunConfig& config, int stage,
+                          const std::vector<std::int64_t>& indices, const ProgressFn& progress) {
+  if (indices.empty()) {
+    const std::int64_t n = config.model.resolution;
+    return torch::empty({0, 1, n, n, n});
+  }
+  return stage < 0 ? PriorValues(run, config, indices)
+                   : SampledValues(run, config, stage, indices, progress);
+}
+
+std::vector<ScoredSample> StageSamples(const RunFolder& run, const RunConfig& config, int stage,
+                                       const std::vector<std::int64_t>& indices,
+                                       RunObserver* observer) {
+  const torch::Tensor values =
+      StageValues(run, config, stage, indices, observer->Phase(StageText(stage) + ": sampling"));
+  std::vector<ScoredSample> samples(indices.size());
+  ParallelFor(
+      std::ssize(indices), config.threads,
+      [&](std::int64_t j) {
+        const auto slot = static_cast<std::size_t>(j);
+        samples[slot] = ScoreSample(values[j], indices[slot], config);
+      },
+      observer->Phase(StageText(stage) + ": scoring"));
+  return samples;
+}
+
+}  // namespace antigrasp
