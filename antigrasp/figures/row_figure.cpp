@@ -118,18 +118,18 @@ void DrawDistribution(Canvas* canvas, const Area& area, const FigureRow& row,
   const Scale y{0.0, 1.08 * all.largest, "", true, true};
   Plot plot(canvas, area, x, y);
   const Histogram& values = all.values[index];
+  const double right = area.Right() - 2.0;
+  if (values.Total() == 0) {
+    plot.DrawAxes();
+    canvas->Text(row.gap, {right, area.y + 8.0}, {7.0, kMuted, Align::kRight});
+    return;
+  }
   const double mean = MeanOf(row.values), of_reference = MeanOf(row.reference);
   plot.DrawBars(values, kBars);
   if (!row.reference.empty()) plot.DrawOutline(all.reference[index], kInk.WithAlpha(0.55), 0.7);
   plot.DrawMark(of_reference, kInk.WithAlpha(0.55), 0.6, {1.2, 1.8});
   plot.DrawMark(mean, kMark, 0.8, {3.0, 1.5});
   plot.DrawAxes();
-  const double right = area.Right() - 2.0;
-  if (values.Total() == 0) {
-    canvas->Text(row.gap, {area.x + 0.5 * area.width, area.y + 0.5 * area.height},
-                 {7.0, kMuted, Align::kMiddle});
-    return;
-  }
   canvas->Text(Kappa(mean), {right, area.y + 8.0}, {8.5, kMark, Align::kRight, true});
   canvas->Text("n = " + std::to_string(values.Total()), {right, area.y + 17.0},
                {6.5, kMuted, Align::kRight});

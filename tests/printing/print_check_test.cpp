@@ -69,6 +69,12 @@ TEST(PrintCheck, APoseThatHardlyEverOccursIsNotSuggestedUnlessAskedFor) {
   EXPECT_EQ(standing.overhang_share, 0.0);
 }
 
+TEST(PrintCheck, AnObjectThatHardlyTouchesThePlateIsNamed) {
+  const TriangleMesh ball = shapes::Sphere(1.0, 4);
+  EXPECT_TRUE(Notes(CheckPrint(ball, 60.0), "print it on a raft"));
+  EXPECT_FALSE(Notes(CheckPrint(ball, 60.0, {.min_contact_mm2 = 0.0}), "raft"));
+}
+
 TEST(PrintCheck, AThinWallIsNamedWithItsThickness) {
   const PrintCheck check = CheckPrint(shapes::Box({1.0, 1.0, 0.01}), 50.0);
   EXPECT_NEAR(*check.wall_mm, 0.5, 1e-3);
