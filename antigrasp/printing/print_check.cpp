@@ -63,7 +63,7 @@ std::vector<std::string> Notes(const PrintCheck& check, const PrintOptions& opti
   if (check.wall_mm && *check.wall_mm < options.min_wall_mm) {
     notes.push_back(
         Text("The thinnest wall is %.2g mm, below %g mm; ", *check.wall_mm, options.min_wall_mm) +
-        Text("%.1f %% of the surface belongs to such walls.", 100.0 * check.thin_share, 0.0));
+        Text("%.1f %% of the surface belongs to such walls.", 100.0 * check.thin_share));
   }
   if (check.pose_probability <= 0.0) notes.emplace_back("No stable pose: shown as it is.");
   if (check.overhang_share > options.max_overhang) {
@@ -73,8 +73,7 @@ std::vector<std::string> Notes(const PrintCheck& check, const PrintOptions& opti
              100.0 * check.overhang_share, options.overhang_angle));
   }
   if (check.contact_mm2 < options.min_contact_mm2) {
-    notes.push_back(
-        Text("Only %.2g mm2 lie on the plate: print it on a raft.", check.contact_mm2, 0.0));
+    notes.push_back(Text("Only %.2g mm2 lie on the plate: print it on a raft.", check.contact_mm2));
   }
   return notes;
 }
