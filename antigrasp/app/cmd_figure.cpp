@@ -17,9 +17,9 @@ struct CommonFlags {
   std::string out;
   FigureOptions options;
 
-  // Refuses an unknown ending and an unwritable target before the work.
+  // Refuses an unknown ending, too many pixels and an unwritable target before the work.
   void Check() const {
-    CheckPagePath(out);
+    CheckPage(out, {options.Width(), 0.0, options.dpi});
     const AtomicFile probe(out);
   }
 };

@@ -75,8 +75,8 @@ struct PageSize {
 // extension and for a PNG side above 30,000 pixels; RuntimeFailure when Cairo fails.
 void WritePage(const std::filesystem::path& path, const PageSize& size,
                const std::function<void(Canvas*)>& draw);
-// InputError unless the extension is one that WritePage knows.
-void CheckPagePath(const std::filesystem::path& path);
+// The InputErrors of WritePage before there is anything to draw.
+void CheckPage(const std::filesystem::path& path, const PageSize& size);
 
 // `text` with every byte that is no UTF-8 replaced by U+FFFD and every control character by a
 // blank.

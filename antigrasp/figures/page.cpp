@@ -83,15 +83,21 @@ void DrawPage(cairo_surface_t* surface, const PageSize& size, double scale,
 
 }  // namespace
 
-void CheckPagePath(const std::filesystem::path& path) {
+void CheckPage(const std::filesystem::path& path, const PageSize& size) {
   const std::string extension = Extension(path);
-  if (extension == ".svg" || extension == ".png") return;
-  throw InputError("unknown kind of picture", path.string(), "a name that ends in .svg or .png");
+  if (extension != ".svg" && extension != ".png") {
+    throw InputError("unknown kind of picture", path.string(), "a name that ends in .svg or .png");
+  }
+  const double longest = std::max(size.width, size.height) * size.dpi / kPointsPerInch;
+  if (extension == ".png" && longest > kMostPixels) {
+    throw InputError("a picture " + std::to_string(std::lround(longest)) + " pixels long",
+                     path.string(), "at most 30000 pixels a side");
+  }
 }
 
 void WritePage(const std::filesystem::path& path, const PageSize& size,
                const std::function<void(Canvas*)>& draw) {
-  CheckPagePath(path);
+  CheckPage(path, size);
   std::string bytes;
   using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
   if (Extension(path) == ".svg") {
@@ -105,11 +111,6 @@ void WritePage(const std::filesystem::path& path, const PageSize& size,
   } else {
     const double scale = size.dpi / kPointsPerInch;
     const double width = std::ceil(size.width * scale), height = std::ceil(size.height * scale);
-    if (std::max(width, height) > kMostPixels) {
-      throw InputError("a picture of " + std::to_string(std::lround(width)) + " x " +
-                           std::to_string(std::lround(height)) + " pixels",
-                       path.string(), "at most 30000 a side");
-    }
     const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width),
                                                      static_cast<int>(height)),
                           &cairo_surface_destroy);

@@ -34,6 +34,7 @@ void ExpectSvg(const TempFolder& folder, const std::string& arguments) {
   const std::string svg = ReadFile(folder / "1.svg");
   EXPECT_EQ(svg, ReadFile(folder / "2.svg")) << arguments;
   EXPECT_EQ(shapes::WhyNotWellFormed(svg), "") << arguments;
+  EXPECT_EQ(svg.find("<script"), std::string::npos) << arguments;
   EXPECT_NE(svg.find("data:image/png;base64,"), std::string::npos) << arguments;
 }
 
@@ -56,7 +57,12 @@ TEST(FigureCli, Figure1DrawsObjectsWithHostileNamesAndTheHistoryOfAPerturbation)
                                 dir + "f.png" + metric);
   ASSERT_EQ(png.code, 0) << png.text;
   EXPECT_EQ(ReadPng(folder / "f.png").width, 250);
-  ExpectRefused("figure 1 " + dir + "cube.stl --label a b --out " + dir + "x.svg", "2 labels");
+  const Outcome labels =
+      Antigrasp("figure 1 " + dir + "cube.stl --label a b --out " + dir + "x.svg");
+  EXPECT_EQ(labels.code, 2);
+  EXPECT_NE(labels.text.find("antigrasp: 2 labels (--label): expected 1, one each"),
+            std::string::npos)
+      << labels.text;
   ExpectRefused("figure 1 " + dir + "cube.stl --history " + dir + "perturbed/perturb.csv --out " +
                     dir + "x.svg",
                 "no column iteration");

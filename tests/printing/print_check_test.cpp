@@ -71,8 +71,10 @@ TEST(PrintCheck, APoseThatHardlyEverOccursIsNotSuggestedUnlessAskedFor) {
 
 TEST(PrintCheck, AnObjectThatHardlyTouchesThePlateIsNamed) {
   const TriangleMesh ball = shapes::Sphere(1.0, 4);
-  EXPECT_TRUE(Notes(CheckPrint(ball, 60.0), "print it on a raft"));
-  EXPECT_FALSE(Notes(CheckPrint(ball, 60.0, {.min_contact_mm2 = 0.0}), "raft"));
+  // Within the first layer lies a cap of 2 pi r 0.2 mm: 38 mm2 and 6 mm2.
+  EXPECT_FALSE(Notes(CheckPrint(ball, 60.0), "print it on a raft"));
+  EXPECT_TRUE(Notes(CheckPrint(ball, 10.0), "print it on a raft"));
+  EXPECT_FALSE(Notes(CheckPrint(ball, 10.0, {.min_contact_mm2 = 0.0}), "raft"));
 }
 
 TEST(PrintCheck, AThinWallIsNamedWithItsThickness) {
