@@ -19,6 +19,7 @@ void AddPosesCommand(CLI::App* app);
 void AddTrialCommand(CLI::App* app);
 void AddSheetCommand(CLI::App* app);
 void AddReportCommand(CLI::App* app);  // not in a build without the report's page
+void AddFigureCommand(CLI::App* app);
 void AddExportCommand(CLI::App* app);
 void AddGeneratorCommand(CLI::App* app);
 void AddInfoCommand(CLI::App* app);

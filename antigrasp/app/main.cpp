@@ -63,6 +63,7 @@ int Run(int argc, char** argv) {
 #ifdef ANTIGRASP_HAS_REPORT
   AddReportCommand(&app);
 #endif
+  AddFigureCommand(&app);
   AddExportCommand(&app);
   AddGeneratorCommand(&app);
   AddInfoCommand(&app);

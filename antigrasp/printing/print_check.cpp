@@ -51,7 +51,7 @@ Candidate BestPose(std::vector<Candidate> candidates) {
                            });
 }
 
-std::string Text(const char* format, double first, double second) {
+std::string Text(const char* format, double first, double second = 0.0) {
   char text[200];
   std::snprintf(text, sizeof text, format, first, second);
   return text;
@@ -63,7 +63,7 @@ std::vector<std::string> Notes(const PrintCheck& check, const PrintOptions& opti
   if (check.wall_mm && *check.wall_mm < options.min_wall_mm) {
     notes.push_back(
         Text("The thinnest wall is %.2g mm, below %g mm; ", *check.wall_mm, options.min_wall_mm) +
-        Text("%.1f %% of the surface belongs to such walls.", 100.0 * check.thin_share, 0.0));
+        Text("%.1f %% of the surface belongs to such walls.", 100.0 * check.thin_share));
   }
   if (check.pose_probability <= 0.0) notes.emplace_back("No stable pose: shown as it is.");
   if (check.overhang_share > options.max_overhang) {
@@ -72,8 +72,9 @@ std::vector<std::string> Notes(const PrintCheck& check, const PrintOptions& opti
              "support.",
              100.0 * check.overhang_share, options.overhang_angle));
   }
-  if (check.contact_mm2 <= 0.0)
-    notes.emplace_back("No face lies on the plate: print it on a raft.");
+  if (check.contact_mm2 < options.min_contact_mm2) {
+    notes.push_back(Text("Only %.2g mm2 lie on the plate: print it on a raft.", check.contact_mm2));
+  }
   return notes;
 }
 
@@ -92,6 +93,8 @@ void Bind(OptionTable* table, PrintOptions* o) {
              "how far the two sides of a wall may be from parallel, degrees");
   table->Add("print.min_probability", &o->min_probability, 0.0, 1.0,
              "likelier stable poses are considered for printing");
+  table->Add("print.min_contact_mm2", &o->min_contact_mm2, 0.0, 1e6,
+             "area on the plate below which the notes ask for a raft, mm2");
 }
 
 PrintCheck CheckPrint(const TriangleMesh& mesh, double size_mm, const PrintOptions& options) {

@@ -20,6 +20,8 @@ struct PrintOptions {
   double layer_mm = 0.2;          // what lies within the first layer rests on the plate
   double opposite_angle = 45.0;   // how far two sides of a wall may be from parallel, degrees
   double min_probability = 0.01;  // likelier stable poses are considered for printing
+  // Area on the plate below which the notes ask for a raft; ours: a disc of 3.6 mm.
+  double min_contact_mm2 = 10.0;
 };
 
 void Bind(OptionTable* table, PrintOptions* options);  // keys "print.*"

@@ -17,6 +17,11 @@ Image::Image(int width_, int height_, Rgb background)
   AG_CHECK(width_ >= 0 && height_ >= 0, "an image has a size");
 }
 
+RgbaImage::RgbaImage(int width_, int height_)
+    : width(width_), height(height_), pixels(static_cast<std::size_t>(width_ * height_)) {
+  AG_CHECK(width_ >= 0 && height_ >= 0, "an image has a size");
+}
+
 void Paste(const Image& tile, int x, int y, Image* image) {
   AG_CHECK(x >= 0 && y >= 0 && x + tile.width <= image->width && y + tile.height <= image->height,
            "a tile inside the image");

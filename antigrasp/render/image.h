@@ -8,6 +8,7 @@
 namespace antigrasp {
 
 using Rgb = std::array<std::uint8_t, 3>;
+using Rgba = std::array<std::uint8_t, 4>;  // the last: 0 clear, 255 opaque; colours not multiplied
 
 // Pixels row by row from the top left.
 struct Image {
@@ -18,6 +19,17 @@ struct Image {
 
   int width = 0, height = 0;
   std::vector<Rgb> pixels;
+};
+
+// The same with opacity, all clear at first.
+struct RgbaImage {
+  RgbaImage() = default;
+  RgbaImage(int width_, int height_);
+  Rgba& At(int x, int y) { return pixels[static_cast<std::size_t>(y * width + x)]; }
+  const Rgba& At(int x, int y) const { return pixels[static_cast<std::size_t>(y * width + x)]; }
+
+  int width = 0, height = 0;
+  std::vector<Rgba> pixels;
 };
 
 // Puts `tile` with its top left corner at (x, y); it must fit (CHECKed).

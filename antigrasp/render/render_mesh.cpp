@@ -15,26 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kAmbient = 0.42;
-constexpr double kMargin = 1.04;  // of the picture about the object
-
-double LargestDistance(const TriangleMesh& mesh, const Vector3d& from) {
-  double squared = 0.0;
-  for (const Vector3d& v : mesh.vertices) squared = std::max(squared, (v - from).squaredNorm());
-  return std::sqrt(squared);
-}
-
-struct Camera {
-  explicit Camera(const View& view) {
-    const double azimuth = view.azimuth * kRadians, elevation = view.elevation * kRadians;
-    const Vector3d towards(std::cos(elevation) * std::cos(azimuth),
-                           std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-    forward = -towards;
-    right = Vector3d(-std::sin(azimuth), std::cos(azimuth), 0.0);
-    up = right.cross(forward);
-    light = (towards - 0.5 * right + 0.7 * up).normalized();
-  }
-  Vector3d forward, right, up, light;
-};
+constexpr double kExposure = 1.12;
 
 // Unit normals at the corners of the faces: the mean of the faces around the corner that turn from
 // this one by less than the crease, by area.
@@ -82,44 +63,92 @@ class SmoothNormals {
   std::vector<std::array<Vector3d, 3>> corners_;
 };
 
+// The light that comes back from the mesh to one camera.
+class Shading {
+ public:
+  Shading(const TriangleMesh& mesh, const Camera& camera, const View& view)
+      : camera_(camera),
+        scene_(mesh),
+        normals_(mesh, view.crease),
+        light_((-camera.forward - 0.5 * camera.right + 0.7 * camera.up).normalized()),
+        color_(view.color[0], view.color[1], view.color[2]) {
+    // From so far in front of the picture that the whole mesh lies behind it.
+    const BoundingBox box = Bounds(mesh);
+    away_ = (box.Center() - camera.center).norm() + box.Extent().norm();
+  }
+
+  // At a place in the picture, in half sides from its middle, y up; nullopt where nothing is met.
+  std::optional<Vector3d> At(double x, double y) const {
+    const Vector3d origin = camera_.center - away_ * camera_.forward +
+                            camera_.half_side * (x * camera_.right + y * camera_.up);
+    const auto hit = scene_.Closest(origin, camera_.forward, 2.0 * away_);
+    if (!hit) return std::nullopt;
+    const double lit = std::max(0.0, normals_.At(hit->face, hit->point).dot(light_));
+    return (kAmbient + (1.0 - kAmbient) * lit) * color_;
+  }
+
+ private:
+  const Camera& camera_;
+  RayScene scene_;
+  SmoothNormals normals_;
+  Vector3d light_, color_;
+  double away_ = 0.0;
+};
+
+// Calls pixel(x, y, sum of the light, number of samples that met the mesh) for every pixel.
+template <typename Pixel>
+void ForEachPixel(const Shading& shading, const View& view, const Pixel& pixel) {
+  const int fine = view.pixels * view.samples;
+  for (int y = 0; y < view.pixels; ++y) {
+    for (int x = 0; x < view.pixels; ++x) {
+      Vector3d sum = Vector3d::Zero();
+      int met = 0;
+      for (int i = 0; i < view.samples * view.samples; ++i) {
+        const int at_x = x * view.samples + i % view.samples;
+        const int at_y = y * view.samples + i / view.samples;
+        const auto light =
+            shading.At((2.0 * at_x + 1.0) / fine - 1.0, 1.0 - (2.0 * at_y + 1.0) / fine);
+        if (!light) continue;
+        sum += *light;
+        ++met;
+      }
+      pixel(x, y, sum, met);
+    }
+  }
+}
+
+std::uint8_t Byte(double value) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+}
+
 }  // namespace
 
 Image RenderMesh(const TriangleMesh& mesh, const View& view) {
   Image image(view.pixels, view.pixels);
   if (mesh.faces.empty()) return image;
-  const Camera camera(view);
-  const RayScene scene(mesh);
-  const SmoothNormals normals(mesh, view.crease);
-  const BoundingBox box = Bounds(mesh);
-  const Vector3d center = 0.5 * (box.min + box.max);
-  const double radius = LargestDistance(mesh, center);
-  const Vector3d middle = center - 2.0 * radius * camera.forward;
-  const int fine = view.pixels * view.samples;
-  const double step = kMargin * 2.0 * radius / fine;
-  const Vector3d color(view.color[0], view.color[1], view.color[2]);
-
-  // The light at one place of the finer grid; white where nothing is met.
-  const auto sample = [&](int x, int y) -> Vector3d {
-    const Vector3d origin = middle + (x + 0.5 - 0.5 * fine) * step * camera.right -
-                            (y + 0.5 - 0.5 * fine) * step * camera.up;
-    const auto hit = scene.Closest(origin, camera.forward, 4.0 * radius);
-    if (!hit) return Vector3d::Constant(255.0);
-    const double lit = std::max(0.0, normals.At(hit->face, hit->point).dot(camera.light));
-    return (kAmbient + (1.0 - kAmbient) * lit) * color;
-  };
-  for (int y = 0; y < view.pixels; ++y) {
-    for (int x = 0; x < view.pixels; ++x) {
-      Vector3d sum = Vector3d::Zero();
-      for (int i = 0; i < view.samples * view.samples; ++i) {
-        sum += sample(x * view.samples + i % view.samples, y * view.samples + i / view.samples);
-      }
-      sum /= view.samples * view.samples;
-      for (int k = 0; k < 3; ++k) {
-        image.At(x, y)[static_cast<std::size_t>(k)] =
-            static_cast<std::uint8_t>(std::lround(std::clamp(sum[k] * 1.12, 0.0, 255.0)));
-      }
+  const Camera camera = CameraFor(mesh, view.azimuth, view.elevation);
+  const int samples = view.samples * view.samples;
+  ForEachPixel(Shading(mesh, camera, view), view, [&](int x, int y, Vector3d sum, int met) {
+    sum += Vector3d::Constant(255.0 * (samples - met));
+    for (int k = 0; k < 3; ++k) {
+      image.At(x, y)[static_cast<std::size_t>(k)] = Byte(kExposure * sum[k] / samples);
     }
-  }
+  });
+  return image;
+}
+
+RgbaImage RenderOnNothing(const TriangleMesh& mesh, const Camera& camera, const View& view) {
+  RgbaImage image(view.pixels, view.pixels);
+  if (mesh.faces.empty()) return image;
+  const int samples = view.samples * view.samples;
+  ForEachPixel(Shading(mesh, camera, view), view, [&](int x, int y, const Vector3d& sum, int met) {
+    if (met == 0) return;
+    Rgba& pixel = image.At(x, y);
+    for (int k = 0; k < 3; ++k) {
+      pixel[static_cast<std::size_t>(k)] = Byte(kExposure * sum[k] / met);
+    }
+    pixel[3] = Byte(255.0 * met / samples);
+  });
   return image;
 }
 

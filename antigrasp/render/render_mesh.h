@@ -1,6 +1,7 @@
 #pragma once
 
 #include "antigrasp/mesh/triangle_mesh.h"
+#include "antigrasp/render/camera.h"
 #include "antigrasp/render/image.h"
 
 namespace antigrasp {
@@ -21,5 +22,9 @@ struct View {
 // of threads. An empty mesh is white. Finite vertices. 30 ms for 256 pixels and 3,000 faces, single
 // thread.
 Image RenderMesh(const TriangleMesh& mesh, const View& view = {});
+
+// The same from a camera of one's own (the view's azimuth and elevation are not used), to be laid
+// over something else: opaque where the mesh is, clear around it, with smooth borders.
+RgbaImage RenderOnNothing(const TriangleMesh& mesh, const Camera& camera, const View& view = {});
 
 }  // namespace antigrasp

@@ -69,6 +69,14 @@ TEST(PrintCheck, APoseThatHardlyEverOccursIsNotSuggestedUnlessAskedFor) {
   EXPECT_EQ(standing.overhang_share, 0.0);
 }
 
+TEST(PrintCheck, AnObjectThatHardlyTouchesThePlateIsNamed) {
+  const TriangleMesh ball = shapes::Sphere(1.0, 4);
+  // Within the first layer lies a cap of 2 pi r 0.2 mm: 38 mm2 and 6 mm2.
+  EXPECT_FALSE(Notes(CheckPrint(ball, 60.0), "print it on a raft"));
+  EXPECT_TRUE(Notes(CheckPrint(ball, 10.0), "print it on a raft"));
+  EXPECT_FALSE(Notes(CheckPrint(ball, 10.0, {.min_contact_mm2 = 0.0}), "raft"));
+}
+
 TEST(PrintCheck, AThinWallIsNamedWithItsThickness) {
   const PrintCheck check = CheckPrint(shapes::Box({1.0, 1.0, 0.01}), 50.0);
   EXPECT_NEAR(*check.wall_mm, 0.5, 1e-3);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -56,6 +57,50 @@ TEST(RenderMesh, ACubeShowsThreeFlatShadesAndASphereManySmoothOnes) {
   };
   EXPECT_EQ(shades(shapes::Cube()), 3u);
   EXPECT_GT(shades(shapes::Sphere(1.0, 3)), 50u);
+}
+
+TEST(RenderOnNothing, OverWhiteIsWhatRenderMeshDrawsInsideAndClearOutside) {
+  const View view = Sharp();
+  const TriangleMesh ball = shapes::Sphere(1.0, 4);
+  const Image white = RenderMesh(ball, view);
+  const RgbaImage clear =
+      RenderOnNothing(ball, CameraFor(ball, view.azimuth, view.elevation), view);
+  for (std::size_t i = 0; i < white.pixels.size(); ++i) {
+    const Rgba& pixel = clear.pixels[i];
+    if (pixel[3] == 0) {
+      ASSERT_EQ(white.pixels[i], kWhite);
+    } else {
+      ASSERT_EQ(pixel[3], 255);
+      ASSERT_EQ(white.pixels[i], (Rgb{pixel[0], pixel[1], pixel[2]}));
+    }
+  }
+}
+
+TEST(RenderOnNothing, ACameraWithAWiderPictureShowsASmallerObjectWithSmoothBorders) {
+  View view;
+  const TriangleMesh ball = shapes::Sphere(1.0, 4);
+  Camera camera = CameraFor(ball, view.azimuth, view.elevation);
+  camera.half_side *= 2.0;
+  const RgbaImage image = RenderOnNothing(ball, camera, view);
+  double covered = 0.0;
+  int between = 0;
+  for (const Rgba& pixel : image.pixels) {
+    covered += pixel[3] / 255.0;
+    between += pixel[3] > 0 && pixel[3] < 255 ? 1 : 0;
+  }
+  const double radius = 256.0 / (4.0 * 1.04);
+  EXPECT_NEAR(covered, std::numbers::pi * radius * radius, 0.01 * covered);
+  EXPECT_GT(between, 100);
+  EXPECT_EQ(RenderOnNothing(TriangleMesh{}, camera, view).At(128, 128)[3], 0);
+}
+
+TEST(Camera, ProjectsItsMiddleToTheMiddleAndUpToTheTop) {
+  const TriangleMesh cube = Transformed(shapes::Cube(), 1.0, {3.0, 4.0, 5.0});
+  const Camera camera = CameraFor(cube, 90.0, 0.0);  // from +y: x runs to the left
+  EXPECT_NEAR((camera.Project({3.0, 4.0, 5.0}) - Eigen::Vector2d(0.5, 0.5)).norm(), 0.0, 1e-12);
+  EXPECT_LT(camera.Project({3.0, 4.0, 5.4}).y(), 0.4);
+  EXPECT_LT(camera.Project({3.4, 4.0, 5.0}).x(), 0.4);
+  EXPECT_NEAR(camera.half_side, 1.04 * 0.5 * std::sqrt(3.0), 1e-12);
 }
 
 TEST(RenderMesh, AnEmptyMeshIsWhite) { EXPECT_EQ(Covered(RenderMesh(TriangleMesh{})), 0); }

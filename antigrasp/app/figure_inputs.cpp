@@ -1,0 +1,228 @@
+#include "antigrasp/app/figure_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+
+#include "antigrasp/app/console.h"
+#include "antigrasp/app/input_objects.h"
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/csv_reader.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/figures/histogram.h"
+#include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/sdf/mesh_to_sdf.h"
+#include "antigrasp/sdf/remesh.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostObjects = 100;  // of a figure; more would not be seen
+// Grid cells between an object and the sides of the unit cube, as `dataset import` leaves them.
+constexpr double kClearance = 2.0;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t NeedColumn(const CsvReader& csv, const fs::path& path, const std::string& name) {
+  const auto column = csv.Column(name);
+  if (!column) throw InputError("no column " + name, path.string(), "a table with " + name);
+  return *column;
+}
+
+void CheckLabels(const std::vector<std::string>& labels, std::size_t count) {
+  if (labels.empty() || labels.size() == count) return;
+  throw InputError(std::to_string(labels.size()) + " labels", "--label",
+                   std::to_string(count) + ", one each");
+}
+
+// The last folder of a path, also when the path ends in a slash or a dot.
+std::string FolderName(const std::string& folder) {
+  const fs::path path = fs::absolute(folder).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+std::vector<std::string> DisplayNames(const std::vector<InputObject>& objects,
+                                      const std::vector<std::string>& inputs) {
+  std::map<std::string, int> count;
+  for (const InputObject& object : objects) ++count[object.name];
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    std::string name = objects[i].name;
+    if (count[name] > 1 && inputs.size() == objects.size()) {
+      const fs::path input(inputs[i]);
+      name = FolderName(
+                 (fs::is_directory(input) ? input : fs::absolute(input).parent_path()).string()) +
+             "/" + name;
+    }
+    names.push_back(IsMeshFile(name) ? fs::path(name).replace_extension().string() : name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<GraspedObject> GraspedObjects(const std::vector<std::string>& inputs,
+                                          const std::vector<std::string>& labels,
+                                          const MetricOptions& metric, std::uint64_t seed,
+                                          int threads) {
+  ConsoleObserver console;
+  std::vector<InputObject> objects =
+      LoadObjects(inputs, threads, console.Phase("reading"), kMostObjects + 1);
+  if (objects.size() > kMostObjects) {
+    throw InputError("too many objects", inputs.front(), "at most 100 in a figure");
+  }
+  CheckLabels(labels, objects.size());
+  const std::vector<std::string> names = DisplayNames(objects, inputs);
+  std::vector<GraspedObject> grasped(objects.size());
+  ParallelFor(
+      std::ssize(objects), threads,
+      [&](std::int64_t i) {
+        const auto slot = static_cast<std::size_t>(i);
+        GraspedObject& object = grasped[slot];
+        object.name = labels.empty() ? names[slot] : labels[slot];
+        object.mesh = std::move(objects[slot].mesh);
+        object.status = objects[slot].status;
+        object.score.value = kNone;
+        if (!objects[slot].ok()) return;
+        object.score = EvaluateGraspability(object.mesh, metric, seed, 0);
+        object.status = std::string(Name(object.score.status));
+        std::replace(object.status.begin(), object.status.end(), '_', ' ');
+      },
+      console.Phase("scoring"));
+  return grasped;
+}
+
+std::vector<PairHistory> ReadHistories(const fs::path& path) {
+  RequireFile(path, "history.csv of antigrasp perturb ... --history");
+  CsvReader csv(path);
+  const std::size_t object = NeedColumn(csv, path, "object");
+  const std::size_t iteration = NeedColumn(csv, path, "iteration");
+  const std::size_t pairs = NeedColumn(csv, path, "pairs");
+  std::vector<PairHistory> histories;
+  while (csv.Next()) {
+    if (histories.empty() || histories.back().object != csv.Field(object)) {
+      histories.push_back({csv.Field(object), {}, {}});
+    }
+    histories.back().iteration.push_back(csv.Number(iteration).value_or(kNone));
+    histories.back().pairs.push_back(csv.Number(pairs).value_or(kNone));
+  }
+  if (histories.empty()) throw InputError("no rows", path.string(), "a history of an object");
+  return histories;
+}
+
+SdfFigure SdfFigureOf(const std::string& input, int resolution, int threads) {
+  InputObject object = LoadObjects({input}, threads, nullptr, 1).front();
+  if (!object.ok()) throw InputError(object.name + ": " + object.status, input, "a closed solid");
+  SdfFigure figure;
+  figure.name = DisplayNames({object}, {input}).front();
+  figure.grid = UnitCubeGrid(resolution);
+  const BoundingBox box = Bounds(object.mesh);
+  const double scale = (1.0 - 2.0 * kClearance * figure.grid.spacing) / box.Extent().maxCoeff();
+  figure.original = Transformed(object.mesh, scale, -scale * box.Center());
+  MeshToSdf(figure.original, &figure.grid);
+  figure.remeshed = Remesh(figure.grid).mesh;
+  if (figure.remeshed.faces.empty()) {
+    throw InputError(object.name + " is too thin: no node of the grid is inside", input,
+                     "a thicker object or a higher --resolution");
+  }
+  return figure;
+}
+
+namespace {
+
+struct PerturbedPair {
+  std::string name;
+  double before = kNone, after = kNone;
+};
+
+// Of a folder's perturb.csv, the objects with a result and both numbers: those of perturb's own
+// summary.
+std::vector<PerturbedPair> ReadPairs(const fs::path& path) {
+  RequireFile(path, "perturb.csv of antigrasp perturb --out FOLDER");
+  CsvReader csv(path);
+  const std::size_t object = NeedColumn(csv, path, "object");
+  const std::size_t status = NeedColumn(csv, path, "status");
+  const std::size_t before = NeedColumn(csv, path, "graspability_before");
+  const std::size_t after = NeedColumn(csv, path, "graspability_after");
+  std::vector<PerturbedPair> pairs;
+  while (csv.Next()) {
+    const PerturbedPair pair{csv.Field(object), csv.Number(before).value_or(kNone),
+                             csv.Number(after).value_or(kNone)};
+    const bool scored = std::isfinite(pair.before) && std::isfinite(pair.after);
+    if (csv.Field(status) == "ok" && scored) pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+fs::path MeshOf(const fs::path& folder, const char* part, const std::string& name) {
+  return folder / part / (FileNameOf(name) + ".stl");
+}
+
+// The pairs with both meshes whose change is nearest to the median one's, that first.
+std::vector<PerturbedPair> MedianPairs(std::vector<PerturbedPair> pairs, const fs::path& folder,
+                                       int count) {
+  std::erase_if(pairs, [&](const PerturbedPair& pair) {
+    return !fs::exists(MeshOf(folder, "before", pair.name)) ||
+           !fs::exists(MeshOf(folder, "after", pair.name));
+  });
+  if (pairs.empty()) return pairs;
+  const auto change = [](const PerturbedPair& pair) { return pair.after - pair.before; };
+  const auto by_change = [&](const PerturbedPair& a, const PerturbedPair& b) {
+    return change(a) < change(b);
+  };
+  std::stable_sort(pairs.begin(), pairs.end(), by_change);
+  const double median = change(pairs[(pairs.size() - 1) / 2]);
+  std::stable_sort(pairs.begin(), pairs.end(), [&](const PerturbedPair& a, const PerturbedPair& b) {
+    return std::abs(change(a) - median) < std::abs(change(b) - median);
+  });
+  pairs.resize(std::min(pairs.size(), static_cast<std::size_t>(count)));
+  return pairs;
+}
+
+std::string Caption(double graspability) {
+  char text[32];
+  std::snprintf(text, sizeof text, "g = %.5f", graspability);
+  return text;
+}
+
+FigureRow PerturbRow(const fs::path& folder, int examples) {
+  FigureRow row;
+  row.gap = "no object was scored";
+  const std::vector<PerturbedPair> pairs = ReadPairs(folder / "perturb.csv");
+  for (const PerturbedPair& pair : pairs) {
+    row.reference.push_back(pair.before);
+    row.values.push_back(pair.after);
+  }
+  const double mean = MeanOf(row.reference);
+  row.reference = Divided(std::move(row.reference), mean);
+  row.values = Divided(std::move(row.values), mean);
+  for (const PerturbedPair& pair : MedianPairs(pairs, folder, examples)) {
+    row.examples.push_back({ReadMesh(MeshOf(folder, "before", pair.name)), Caption(pair.before)});
+    row.examples.push_back({ReadMesh(MeshOf(folder, "after", pair.name)), Caption(pair.after)});
+  }
+  return row;
+}
+
+}  // namespace
+
+RowFigure PerturbFigure(const std::vector<std::string>& folders,
+                        const std::vector<std::string>& labels, int examples) {
+  CheckLabels(labels, folders.size());
+  RowFigure figure;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    figure.rows.push_back(PerturbRow(folders[i], examples));
+    figure.rows.back().label = labels.empty() ? FolderName(folders[i]) : labels[i];
+  }
+  for (int k = 0; k < examples; ++k) {
+    figure.titles.insert(figure.titles.end(), {"original", "perturbed"});
+  }
+  figure.values_name = "perturbed";
+  figure.reference_name = "originals";
+  figure.axis = "graspability / mean of the originals";
+  return figure;
+}
+
+}  // namespace antigrasp
