@@ -35,7 +35,7 @@ function tile(report: Report, index: number, largest: number, withStage: boolean
   },
   picture,
   h("span", { class: "tile-bar" }, known(value) && largest > 0 ? h("i", { style: `width:${(100 * Math.max(0, value) / largest).toFixed(1)}%` }) : null),
-  h("span", { class: "tile-text" }, h("b", {}, score), change ? h("span", {}, change) : null, h("span", { class: "tile-name" }, withStage && stage ? `${stage} · ${object.name}` : object.name)));
+  h("span", { class: "tile-text" }, h("b", {}, score), " ", change ? h("span", {}, change) : null, " ", h("span", { class: "tile-name" }, withStage && stage ? `${stage} · ${object.name}` : object.name)));
 }
 
 function sectionHeading(report: Report, section: Section): HTMLElement | null {

@@ -148,7 +148,8 @@ export function objectPage(report: Report, index: number): Page {
   host.addEventListener("pointerdown", (event) => { pressed = { x: event.clientX, y: event.clientY }; });
   host.addEventListener("click", (event) => {
     if (!pressed || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > 4) return;
-    const panel = panels.find((p) => p.element.contains(event.target as Node));
+    // Not by the event's target: the camera's controls have captured the pointer for the whole host.
+    const panel = panels.find((p) => p.covers(event.clientX, event.clientY));
     const rank = panel?.pick(event.clientX, event.clientY) ?? null;
     if (rank !== null) grasps?.choose(rank);
   });
