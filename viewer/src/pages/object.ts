@@ -5,7 +5,7 @@ import { tick } from "../controls";
 import { download, fileName } from "../data/download";
 import { decodeGrasps, type Grasp } from "../data/grasps";
 import { type Mesh, meshOf } from "../data/mesh";
-import { graspability, isRejected, type ObjectRecord, type Report, type Shape } from "../data/report";
+import { graspability, isRejected, type ObjectRecord, remark, type Report, type Shape } from "../data/report";
 import { stlPlan, writeStl } from "../data/stl";
 import { h } from "../dom";
 import { count, fixed, known, milli, MILLI_UNIT } from "../format";
@@ -45,7 +45,7 @@ function head(report: Report, object: ObjectRecord, index: number): HTMLElement 
   const link = (text: string, to: number | undefined, rel: string) => (to === undefined
     ? h("span", { class: "step off" }, text)
     : h("a", { class: "step", href: objectLink(to), rel }, text));
-  const facts = [report.groups[object.group]?.label ?? "", object.elite ? "elite" : "", object.mesh ? `${count(object.mesh.triangles)} triangles${object.mesh.full_triangles ? `, decimated from ${count(object.mesh.full_triangles)}` : ""}` : ""];
+  const facts = [report.groups[object.group]?.label ?? "", object.elite ? "elite" : "", remark(object), object.mesh ? `${count(object.mesh.triangles)} triangles${object.mesh.full_triangles ? `, decimated from ${count(object.mesh.full_triangles)}` : ""}` : ""];
   return h("div", { class: "page-head" },
     h("nav", { class: "steps", "aria-label": "Neighbouring objects" }, h("a", { href: "#/gallery" }, "All objects"),
       link("← previous", at > 0 ? order[at - 1] : undefined, "prev"), link("next →", at >= 0 ? order[at + 1] : order[0], "next")),
