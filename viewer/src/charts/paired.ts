@@ -1,5 +1,5 @@
 import * as Plot from "@observablehq/plot";
-import { graspability, type ObjectRecord } from "../data/report";
+import { graspability, isRejected, type ObjectRecord } from "../data/report";
 import { known, milli, MILLI_UNIT } from "../format";
 import { objectLink } from "../router";
 import { COLOURS, figure, key } from "./figure";
@@ -12,11 +12,11 @@ export interface PairPoint {
   after: number;
 }
 
-/** Objects that were scored before and after the change. */
+/** Objects with a result, scored before and after the change. */
 export function pairPoints(objects: ObjectRecord[]): PairPoint[] {
   return objects.flatMap((object, index) => {
     const before = graspability(object.pair), after = graspability(object);
-    return known(before) && known(after) ? [{ index, name: object.name, before, after }] : [];
+    return !isRejected(object) && known(before) && known(after) ? [{ index, name: object.name, before, after }] : [];
   });
 }
 

@@ -109,7 +109,8 @@ export interface Report {
   metric: Metric | null;
   gripper: Gripper | null;
   run: { stages: Stage[]; losses: Losses[] } | null;
-  groups: { id: string; label: string }[];
+  /** Stages of the gallery; note: how their objects were chosen. */
+  groups: { id: string; label: string; note?: string }[];
   objects: ObjectRecord[];
 }
 
@@ -148,7 +149,15 @@ export function graspability(shape: Shape | null | undefined): Num {
   return shape?.score?.graspability ?? null;
 }
 
-/** True where the record has numbers or a mesh to show but is no accepted object. */
+// Scored like any other, on few grasps or none; or changed less than was asked for.
+const USABLE = new Set(["ok", "few_grasps", "no_grasps", "interrupted"]);
+
+/** True for what is no object: not a closed solid, or no printable result. It may still have a mesh and numbers. */
 export function isRejected(object: ObjectRecord): boolean {
-  return object.status !== "ok";
+  return !USABLE.has(object.status);
+}
+
+/** What the status of a usable object says beyond "ok". */
+export function remark(object: ObjectRecord): string {
+  return isRejected(object) || object.status === "ok" ? "" : object.status.replace(/_/g, " ");
 }

@@ -23,9 +23,12 @@ interface Row {
 const MOST = 10; // pictures in a row
 const WIDTH = 96; // of a picture at least, pixels
 
-/** What can be shown, in the order of the report: examples are not picked for their looks. */
+// A run's gallery holds the least graspable objects too, which would flatter a stage.
+const atRandom = (o: ObjectRecord) => !o.numbers?.some(([label, text]) => label === "chosen" && text !== "at random");
+
+/** What can be shown, in the order of the report: examples are picked neither for looks nor for scores. */
 function usable(report: Report, group?: number): number[] {
-  return report.objects.flatMap((o, i) => (o.mesh && !isRejected(o) && (group === undefined || o.group === group) ? [i] : [])).slice(0, MOST);
+  return report.objects.flatMap((o, i) => (o.mesh && !isRejected(o) && atRandom(o) && (group === undefined || o.group === group) ? [i] : [])).slice(0, MOST);
 }
 
 /** Fig. 4: objects of every stage, with the stage's kappa. */
@@ -74,7 +77,7 @@ export function exampleFigure(report: Report): { element: HTMLElement; mounted: 
   const stopScheme = onSchemeChange(() => pictures.restyle());
   const element = h("section", { class: "figure wide" }, h("h2", {}, report.kind === "perturbed" ? "Objects before and after" : "Objects"),
     pictures.surface ? host : h("p", { class: "notice", role: "alert" }, NO_WEBGL),
-    h("p", { class: "note" }, `The first objects of ${rows.length > 1 && report.kind !== "perturbed" ? "every stage" : "the report"}, not selected; below each its graspability, ${MILLI_UNIT}.`));
+    h("p", { class: "note" }, `${report.kind === "run" ? "Objects of every stage, drawn at random" : "The first objects, not selected"}; below each its graspability, ${MILLI_UNIT}.`));
   return {
     element,
     mounted: () => watcher.observe(host),

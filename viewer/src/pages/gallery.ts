@@ -1,4 +1,5 @@
-import { graspability, isRejected, type ObjectRecord, type Report } from "../data/report";
+import { graspability, isRejected, type ObjectRecord, remark, type Report } from "../data/report";
+import { meanOf } from "../data/statistics";
 import { h } from "../dom";
 import { count, fixed, known, milli, MILLI_UNIT, NONE } from "../format";
 import { objectLink, type Page } from "../router";
@@ -25,25 +26,26 @@ function tile(report: Report, index: number, largest: number, withStage: boolean
   const stage = report.groups[object.group]?.label ?? "";
   const change = changeText(object);
   const score = known(value) ? milli(value) : NONE;
-  const says = [object.name, stage, rejected ? `rejected: ${object.status}` : "", `graspability ${known(value) ? `${score}\u00a0${MILLI_UNIT}` : "not measured"}`, change, object.elite ? "elite" : ""];
+  const says = [object.name, stage, rejected ? `rejected: ${object.status}` : remark(object), `graspability ${known(value) ? `${score}\u00a0${MILLI_UNIT}` : "not measured"}`, change, object.elite ? "elite" : ""];
   const picture = h("span", { class: "picture", "data-object": index });
   if (!object.mesh) picture.append(h("span", { class: "no-mesh" }, "no mesh"));
   if (object.elite) picture.append(h("span", { class: "badge" }, "elite"));
-  if (rejected) picture.append(h("span", { class: "badge bad" }, object.status));
+  if (rejected || remark(object)) picture.append(h("span", { class: rejected ? "badge bad" : "badge low" }, rejected ? object.status : remark(object)));
   return h("a", {
     class: rejected ? "tile rejected" : "tile", href: objectLink(index), draggable: "false", "aria-label": says.filter(Boolean).join(", "), title: object.name,
   },
   picture,
   h("span", { class: "tile-bar" }, known(value) && largest > 0 ? h("i", { style: `width:${(100 * Math.max(0, value) / largest).toFixed(1)}%` }) : null),
-  h("span", { class: "tile-text" }, h("b", {}, score), change ? h("span", {}, change) : null, h("span", { class: "tile-name" }, withStage && stage ? `${stage} · ${object.name}` : object.name)));
+  h("span", { class: "tile-text" }, h("b", {}, score), " ", change ? h("span", {}, change) : null, " ", h("span", { class: "tile-name" }, withStage && stage ? `${stage} · ${object.name}` : object.name)));
 }
 
 function sectionHeading(report: Report, section: Section): HTMLElement | null {
   if (section.group < 0) return null;
-  const values = section.objects.map((i) => graspability(report.objects[i])).filter(known);
-  const mean = values.length ? values.reduce((a, b) => a + b, 0) / values.length : null;
-  return h("h2", {}, report.groups[section.group].label, h("small", {},
-    `${count(section.objects.length)} shown, mean graspability ${milli(mean)}\u00a0${MILLI_UNIT}`));
+  const group = report.groups[section.group];
+  // The mean of the whole stage: that of the objects shown would be low where the least graspable were picked.
+  const mean = meanOf(report.run?.stages.find((stage) => stage.id === group.id));
+  const facts = [`${count(section.objects.length)} shown`, group.note ?? "", mean ? `mean of the stage ${milli(mean.value)}${known(mean.half) ? ` ± ${milli(mean.half)}` : ""}` : ""];
+  return h("h2", {}, group.label, h("small", {}, facts.filter(Boolean).join(" · ")));
 }
 
 /** Drags rotate, clicks open: a press that moves by more than a few pixels is no click. */

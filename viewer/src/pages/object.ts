@@ -5,7 +5,7 @@ import { tick } from "../controls";
 import { download, fileName } from "../data/download";
 import { decodeGrasps, type Grasp } from "../data/grasps";
 import { type Mesh, meshOf } from "../data/mesh";
-import { graspability, isRejected, type ObjectRecord, type Report, type Shape } from "../data/report";
+import { graspability, isRejected, type ObjectRecord, remark, type Report, type Shape } from "../data/report";
 import { stlPlan, writeStl } from "../data/stl";
 import { h } from "../dom";
 import { count, fixed, known, milli, MILLI_UNIT } from "../format";
@@ -45,7 +45,7 @@ function head(report: Report, object: ObjectRecord, index: number): HTMLElement 
   const link = (text: string, to: number | undefined, rel: string) => (to === undefined
     ? h("span", { class: "step off" }, text)
     : h("a", { class: "step", href: objectLink(to), rel }, text));
-  const facts = [report.groups[object.group]?.label ?? "", object.elite ? "elite" : "", object.mesh ? `${count(object.mesh.triangles)} triangles${object.mesh.full_triangles ? `, decimated from ${count(object.mesh.full_triangles)}` : ""}` : ""];
+  const facts = [report.groups[object.group]?.label ?? "", object.elite ? "elite" : "", remark(object), object.mesh ? `${count(object.mesh.triangles)} triangles${object.mesh.full_triangles ? `, decimated from ${count(object.mesh.full_triangles)}` : ""}` : ""];
   return h("div", { class: "page-head" },
     h("nav", { class: "steps", "aria-label": "Neighbouring objects" }, h("a", { href: "#/gallery" }, "All objects"),
       link("← previous", at > 0 ? order[at - 1] : undefined, "prev"), link("next →", at >= 0 ? order[at + 1] : order[0], "next")),
@@ -148,7 +148,8 @@ export function objectPage(report: Report, index: number): Page {
   host.addEventListener("pointerdown", (event) => { pressed = { x: event.clientX, y: event.clientY }; });
   host.addEventListener("click", (event) => {
     if (!pressed || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > 4) return;
-    const panel = panels.find((p) => p.element.contains(event.target as Node));
+    // Not by the event's target: the camera's controls have captured the pointer for the whole host.
+    const panel = panels.find((p) => p.covers(event.clientX, event.clientY));
     const rank = panel?.pick(event.clientX, event.clientY) ?? null;
     if (rank !== null) grasps?.choose(rank);
   });

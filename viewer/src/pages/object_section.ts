@@ -6,7 +6,7 @@ import { h } from "../dom";
 import { fixed } from "../format";
 import type { ObjectPanel } from "../three/object_panel";
 
-const COARSE = 56, FINE = 144; // samples a side: while the slider moves, and when it rests
+const COARSE = 48, FINE = 112; // samples a side: while the slider moves, and when it rests
 const REST_MS = 140;
 const AXES = ["x", "y", "z"];
 const MARGIN = 0.14; // of the largest extent, around the objects

@@ -20,7 +20,7 @@ interface Headline {
 function headlineTiles(lines: Headline[]): HTMLElement | null {
   if (!lines.length) return null;
   return h("dl", { class: "headline" }, ...lines.map((line) =>
-    h("div", {}, h("dd", {}, h("b", {}, line.value), line.half ? h("span", {}, line.half) : null), h("dt", {}, line.says))));
+    h("div", {}, h("dd", {}, h("b", {}, line.value), line.half ? " " : null, line.half ? h("span", {}, line.half) : null), h("dt", {}, line.says))));
 }
 
 function asHeadline(e: Estimate | null, says: (lower: string) => string): Headline[] {

@@ -102,6 +102,11 @@ export class ObjectPanel implements View {
     this.cut.geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(points, 3));
   }
 
+  covers(clientX: number, clientY: number): boolean {
+    const box = this.element.getBoundingClientRect();
+    return clientX >= box.left && clientX < box.right && clientY >= box.top && clientY < box.bottom;
+  }
+
   /** Rank of the grasp under a point of the window. */
   pick(clientX: number, clientY: number): number | null {
     const box = this.element.getBoundingClientRect();

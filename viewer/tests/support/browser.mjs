@@ -24,8 +24,8 @@ export function writeReport(name, html) {
  * A page on a report, with what went wrong: console errors, exceptions, refused or attempted requests. Every test ends
  * with expectQuiet().
  */
-export async function open(browser, path, { hash = "#/", width = 1280, height = 800, scheme = "light", webgl = true } = {}) {
-  const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, acceptDownloads: true });
+export async function open(browser, path, { hash = "#/", width = 960, height = 640, scheme = "light", webgl = true } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, reducedMotion: "reduce", acceptDownloads: true });
   const page = await context.newPage();
   const trouble = [], requests = [];
   page.on("console", (m) => { if (m.type() === "error" || m.type() === "warning") trouble.push(`${m.type()}: ${m.text()}`); });
@@ -59,7 +59,7 @@ export function settled(page) {
   return page.evaluate(async () => {
     const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
     // Observers of sizes and of what is on the screen report between frames and may ask for another one.
-    for (let quiet = 0; quiet < 4;) {
+    for (let quiet = 0; quiet < 2;) {
       await frame();
       const canvas = document.querySelector("canvas.surface");
       quiet = canvas && canvas.dataset.busy === undefined ? quiet + 1 : 0;
@@ -67,9 +67,18 @@ export function settled(page) {
   });
 }
 
+/** Goes to a page of the report and waits until it is there. */
 export async function go(page, hash) {
-  await page.evaluate((to) => { location.hash = to; }, hash);
-  await page.waitForFunction((to) => location.hash === to, hash);
+  await page.evaluate((to) => new Promise((resolve) => {
+    if (location.hash === to) return resolve();
+    window.addEventListener("hashchange", () => resolve(), { once: true }); // the page's own listener came first
+    location.hash = to;
+  }), hash);
+}
+
+/** Waits for the page of an object, or any other, by its heading. */
+export async function heading(page, text) {
+  await page.waitForFunction((t) => document.querySelector("h1")?.textContent === t, text);
 }
 
 /** Moves a slider as a hand would: value, then the input event. */
