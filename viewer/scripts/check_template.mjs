@@ -2,8 +2,16 @@ import { readFileSync, readdirSync } from "node:fs";
 import { dirname } from "node:path";
 
 const MARKERS = [
-  ["report data", '<script type="application/json" id="antigrasp-report">"ANTIGRASP_REPORT_JSON"</script>', "ANTIGRASP_REPORT_JSON"],
-  ["geometry", '<script type="application/octet-stream" id="antigrasp-blob">ANTIGRASP_BLOB_BASE64</script>', "ANTIGRASP_BLOB_BASE64"],
+  [
+    "report data",
+    '<script type="application/json" id="antigrasp-report">"ANTIGRASP_REPORT_JSON"</script>',
+    "ANTIGRASP_REPORT_JSON",
+  ],
+  [
+    "geometry",
+    '<script type="application/octet-stream" id="antigrasp-blob">ANTIGRASP_BLOB_BASE64</script>',
+    "ANTIGRASP_BLOB_BASE64",
+  ],
   ["title", "<title>ANTIGRASP_TITLE</title>", "ANTIGRASP_TITLE"],
 ];
 
@@ -12,7 +20,8 @@ export function checkTemplate(path) {
   const html = readFileSync(path, "utf8");
   for (const [what, element, word] of MARKERS) {
     const words = html.split(word).length - 1;
-    if (!html.includes(element)) throw new Error(`${path}: the marker of the ${what} is missing or was changed: ${element}`);
+    if (!html.includes(element))
+      throw new Error(`${path}: the marker of the ${what} is missing or was changed: ${element}`);
     if (words !== 1) throw new Error(`${path}: the marker of the ${what} occurs ${words} times, expected once`);
   }
   const external = html.match(/<(?:script|link|img)\b[^>]*\b(?:src|href)="(?!data:)[^"#]*"/g);

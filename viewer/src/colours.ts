@@ -2,8 +2,20 @@
 
 type Rgb = [number, number, number];
 
-const GREEN_RED: Rgb[] = [[214, 39, 40], [233, 120, 35], [236, 190, 50], [140, 190, 60], [26, 152, 80]]; // worst to best, Fig. 1
-const VIRIDIS: Rgb[] = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
+const GREEN_RED: Rgb[] = [
+  [214, 39, 40],
+  [233, 120, 35],
+  [236, 190, 50],
+  [140, 190, 60],
+  [26, 152, 80],
+]; // worst to best, Fig. 1
+const VIRIDIS: Rgb[] = [
+  [68, 1, 84],
+  [59, 82, 139],
+  [33, 145, 140],
+  [94, 201, 98],
+  [253, 231, 37],
+];
 
 function ramp(stops: Rgb[], t: number): Rgb {
   const x = Math.min(1, Math.max(0, t)) * (stops.length - 1);
@@ -12,7 +24,15 @@ function ramp(stops: Rgb[], t: number): Rgb {
   return [0, 1, 2].map((k) => Math.round(stops[i][k] + f * (stops[i + 1][k] - stops[i][k]))) as Rgb;
 }
 
-const DISTANCE: Rgb[] = [[36, 84, 130], [108, 157, 200], [196, 219, 237], [250, 249, 246], [250, 216, 172], [233, 152, 76], [178, 82, 14]]; // outside, surface, inside
+const DISTANCE: Rgb[] = [
+  [36, 84, 130],
+  [108, 157, 200],
+  [196, 219, 237],
+  [250, 249, 246],
+  [250, 216, 172],
+  [233, 152, 76],
+  [178, 82, 14],
+]; // outside, surface, inside
 
 const css = ([r, g, b]: Rgb) => `rgb(${r}, ${g}, ${b})`;
 

@@ -5,7 +5,11 @@ type Child = Node | string | null | undefined | false;
  * An element with attributes, listeners (keys that begin with "on") and children. Strings become text nodes, never
  * markup: names of objects come from files and may hold anything.
  */
-export function h<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+export function h<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   for (const [key, value] of Object.entries(attributes)) {
     if (value === null || value === undefined || value === false) continue;
@@ -20,8 +24,15 @@ export function h<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Att
 export function table(header: string[], rows: string[][], caption: string): HTMLElement {
   const head = h("tr", {}, ...header.map((text) => h("th", { scope: "col" }, text)));
   const body = rows.map((row) =>
-    h("tr", {}, ...row.map((text, i) => (i === 0 ? h("th", { scope: "row" }, text) : h("td", {}, text)))));
-  const element = h("table", {}, h("caption", { class: "hidden" }, caption), h("thead", {}, head), h("tbody", {}, ...body));
+    h("tr", {}, ...row.map((text, i) => (i === 0 ? h("th", { scope: "row" }, text) : h("td", {}, text)))),
+  );
+  const element = h(
+    "table",
+    {},
+    h("caption", { class: "hidden" }, caption),
+    h("thead", {}, head),
+    h("tbody", {}, ...body),
+  );
   // Wide tables scroll in their own box, which the keyboard must reach.
   return h("div", { class: "table-box", tabindex: 0, role: "region", "aria-label": caption }, element);
 }

@@ -10,7 +10,15 @@ import { type Page, parseRoute } from "./router";
 const KINDS = { run: "Training run", perturbed: "Perturbed objects", objects: "Scored objects" };
 
 function message(text: string): Page {
-  return { title: "", element: h("main", { class: "message" }, h("h1", { tabindex: -1 }, text), h("p", {}, h("a", { href: "#/" }, "Overview"))) };
+  return {
+    title: "",
+    element: h(
+      "main",
+      { class: "message" },
+      h("h1", { tabindex: -1 }, text),
+      h("p", {}, h("a", { href: "#/" }, "Overview")),
+    ),
+  };
 }
 
 function pageFor(report: Report): Page {
@@ -31,7 +39,11 @@ function header(report: Report): { element: HTMLElement; mark: () => void } {
       else link.removeAttribute("aria-current");
     });
   };
-  const name = h("p", { class: "name" }, h("a", { href: "#/" }, h("b", {}, report.title || "antigrasp"), h("span", {}, KINDS[report.kind] ?? "")));
+  const name = h(
+    "p",
+    { class: "name" },
+    h("a", { href: "#/" }, h("b", {}, report.title || "antigrasp"), h("span", {}, KINDS[report.kind] ?? "")),
+  );
   return { element: h("header", { class: "top" }, name, h("nav", { "aria-label": "Pages" }, ...links)), mark };
 }
 
@@ -44,10 +56,22 @@ function start(): void {
   }
   const top = header(report);
   const holder = h("div", { class: "holder" });
-  app.replaceChildren(h("a", { class: "skip", href: "#", onclick: (event: Event) => {
-    event.preventDefault();
-    holder.querySelector<HTMLElement>("h1")?.focus();
-  } }, "Skip to content"), top.element, holder);
+  app.replaceChildren(
+    h(
+      "a",
+      {
+        class: "skip",
+        href: "#",
+        onclick: (event: Event) => {
+          event.preventDefault();
+          holder.querySelector<HTMLElement>("h1")?.focus();
+        },
+      },
+      "Skip to content",
+    ),
+    top.element,
+    holder,
+  );
 
   let current: Page | null = null;
   const show = (navigated: boolean) => {
@@ -65,7 +89,10 @@ function start(): void {
   };
   window.addEventListener("hashchange", () => show(true));
   // Pages that draw objects need the decoder; it is there after a few milliseconds, or never (then they say so).
-  decoderReady.then(() => show(false), () => show(false));
+  decoderReady.then(
+    () => show(false),
+    () => show(false),
+  );
 }
 
 start();

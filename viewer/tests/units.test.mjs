@@ -8,11 +8,19 @@ import { starMesh } from "./support/payload.mjs";
 let vite;
 const load = (path) => vite.ssrLoadModule(path);
 before(async () => {
-  vite = await createServer({ root: fileURLToPath(new URL("..", import.meta.url)), configFile: false, server: { middlewareMode: true, hmr: false, watch: null }, appType: "custom", logLevel: "error", optimizeDeps: { noDiscovery: true } });
+  vite = await createServer({
+    root: fileURLToPath(new URL("..", import.meta.url)),
+    configFile: false,
+    server: { middlewareMode: true, hmr: false, watch: null },
+    appType: "custom",
+    logLevel: "error",
+    optimizeDeps: { noDiscovery: true },
+  });
 });
 after(() => vite.close());
 
-const near = (actual, expected, tolerance) => assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected} ± ${tolerance}`);
+const near = (actual, expected, tolerance) =>
+  assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected} ± ${tolerance}`);
 
 function asMesh({ positions, indices }) {
   const min = [0, 1, 2].map((k) => Math.min(...positions.filter((_, i) => i % 3 === k)));
@@ -24,7 +32,14 @@ function asMesh({ positions, indices }) {
 function cuboid(a, b, c) {
   const positions = [];
   for (const x of [-a, a]) for (const y of [-b, b]) for (const z of [-c, c]) positions.push(x, y, z);
-  const quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+  const quads = [
+    [0, 1, 3, 2],
+    [4, 6, 7, 5],
+    [0, 4, 5, 1],
+    [2, 3, 7, 6],
+    [0, 2, 6, 4],
+    [1, 5, 7, 3],
+  ];
   return asMesh({ positions, indices: quads.flatMap(([p, q, r, s]) => [p, q, r, p, r, s]) });
 }
 
@@ -37,15 +52,16 @@ test("the signed distances of a cuboid's section are those on paper, for every a
     const at = 0.04;
     const grid = signedDistances(tree, outline(mesh, axis, at), axis, at, [-0.5, -0.5], [0.5, 0.5], 21);
     const [u, v] = PLANE_AXES[axis];
-    for (let j = 0; j < 21; ++j) for (let i = 0; i < 21; ++i) {
-      const p = [0, 0, 0];
-      p[axis] = at;
-      p[u] = -0.5 + i * 0.05;
-      p[v] = -0.5 + j * 0.05;
-      const q = p.map((x, k) => Math.abs(x) - half[k]);
-      const paper = -(Math.hypot(...q.map((x) => Math.max(x, 0))) + Math.min(0, Math.max(...q)));
-      if (Math.abs(paper) > 1e-6) near(grid.values[j * 21 + i], paper, 1e-6);
-    }
+    for (let j = 0; j < 21; ++j)
+      for (let i = 0; i < 21; ++i) {
+        const p = [0, 0, 0];
+        p[axis] = at;
+        p[u] = -0.5 + i * 0.05;
+        p[v] = -0.5 + j * 0.05;
+        const q = p.map((x, k) => Math.abs(x) - half[k]);
+        const paper = -(Math.hypot(...q.map((x) => Math.max(x, 0))) + Math.min(0, Math.max(...q)));
+        if (Math.abs(paper) > 1e-6) near(grid.values[j * 21 + i], paper, 1e-6);
+      }
   }
 });
 
@@ -53,7 +69,8 @@ test("the outline of a section is closed and as long as the cuboid's rectangle",
   const { outline } = await load("/src/data/section.ts");
   const mesh = cuboid(0.3, 0.2, 0.1);
   const pieces = outline(mesh, 2, 0);
-  let length = 0, area = 0;
+  let length = 0,
+    area = 0;
   for (let i = 0; i < pieces.length; i += 4) {
     length += Math.hypot(pieces[i + 2] - pieces[i], pieces[i + 3] - pieces[i + 1]);
     area += (pieces[i] * pieces[i + 3] - pieces[i + 2] * pieces[i + 1]) / 2;
@@ -67,12 +84,15 @@ test("normals are smooth on a sphere and stay sharp on a cuboid", async () => {
   const sphere = asMesh(starMesh(16, () => 1));
   const round = shade(sphere);
   assert.equal(round.source.length, sphere.positions.length / 3, "a sphere needs no vertex twice");
-  const p = round.geometry.getAttribute("position"), n = round.geometry.getAttribute("normal");
-  for (let i = 0; i < p.count; ++i) assert.ok(p.getX(i) * n.getX(i) + p.getY(i) * n.getY(i) + p.getZ(i) * n.getZ(i) > 0.98, "normals point outwards");
+  const p = round.geometry.getAttribute("position"),
+    n = round.geometry.getAttribute("normal");
+  for (let i = 0; i < p.count; ++i)
+    assert.ok(p.getX(i) * n.getX(i) + p.getY(i) * n.getY(i) + p.getZ(i) * n.getZ(i) > 0.98, "normals point outwards");
   const sharp = shade(cuboid(1, 1, 1));
   assert.equal(sharp.source.length, 24, "three normals for each of the eight corners");
   const m = sharp.geometry.getAttribute("normal");
-  for (let i = 0; i < m.count; ++i) near(Math.max(Math.abs(m.getX(i)), Math.abs(m.getY(i)), Math.abs(m.getZ(i))), 1, 1e-6);
+  for (let i = 0; i < m.count; ++i)
+    near(Math.max(Math.abs(m.getX(i)), Math.abs(m.getY(i)), Math.abs(m.getZ(i))), 1, 1e-6);
 });
 
 test("a ratio's interval follows the delta method", async () => {
@@ -107,14 +127,30 @@ test("histograms share all objects out, the last bin takes what lies beyond", as
 test("an STL is written in millimetres, turned to its pose and set on the plate", async () => {
   const { stlPlan, writeStl } = await load("/src/data/stl.ts");
   const mesh = cuboid(0.3, 0.2, 0.1);
-  const object = { metres_per_unit: 0.1, print: { size_mm: [90, 60, 30], pose: [[1, 0, 0], [0, 0, -1], [0, 1, 0]] } };
+  const object = {
+    metres_per_unit: 0.1,
+    print: {
+      size_mm: [90, 60, 30],
+      pose: [
+        [1, 0, 0],
+        [0, 0, -1],
+        [0, 1, 0],
+      ],
+    },
+  };
   const plan = stlPlan(object, mesh);
   near(plan.scale, 150, 1e-3);
   const view = new DataView(writeStl(mesh, plan));
   assert.equal(view.getUint32(80, true), 12);
   const corners = [];
-  for (let t = 0; t < 12; ++t) for (let c = 0; c < 3; ++c) corners.push([0, 1, 2].map((k) => view.getFloat32(84 + 50 * t + 12 + 12 * c + 4 * k, true)));
+  for (let t = 0; t < 12; ++t)
+    for (let c = 0; c < 3; ++c)
+      corners.push([0, 1, 2].map((k) => view.getFloat32(84 + 50 * t + 12 + 12 * c + 4 * k, true)));
   const extent = (k) => [Math.min(...corners.map((p) => p[k])), Math.max(...corners.map((p) => p[k]))];
-  [[-45, 45], [-15, 15], [0, 60]].forEach((expected, k) => extent(k).forEach((x, i) => near(x, expected[i], 1e-4)));
+  [
+    [-45, 45],
+    [-15, 15],
+    [0, 60],
+  ].forEach((expected, k) => extent(k).forEach((x, i) => near(x, expected[i], 1e-4)));
   near(stlPlan({ metres_per_unit: 0.1, print: null }, mesh).scale, 100, 1e-9);
 });

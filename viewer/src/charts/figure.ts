@@ -26,16 +26,34 @@ export function figure({ title, caption, legend, draw, numbers, className }: Fig
     drawn = width;
     holder.replaceChildren(draw(width));
   }).observe(holder);
-  return h("section", { class: `figure ${className ?? ""}` }, h("h2", {}, title), legend, holder,
+  return h(
+    "section",
+    { class: `figure ${className ?? ""}` },
+    h("h2", {}, title),
+    legend,
+    holder,
     caption ? h("p", { class: "note" }, caption) : null,
-    numbers?.rows.length ? details("Numbers", table(numbers.header, numbers.rows, title)) : null);
+    numbers?.rows.length ? details("Numbers", table(numbers.header, numbers.rows, title)) : null,
+  );
 }
 
 /** Colours of the style sheet: charts change with the colour scheme by themselves. */
-export const COLOURS = { run: "var(--run)", control: "var(--control)", prior: "var(--prior)", bad: "var(--bad)", ink: "currentColor", grid: "var(--line)" };
+export const COLOURS = {
+  run: "var(--run)",
+  control: "var(--control)",
+  prior: "var(--prior)",
+  bad: "var(--bad)",
+  ink: "currentColor",
+  grid: "var(--line)",
+};
 
 /** A key of coloured words, because a chart's own legend does not wrap on a narrow screen. */
 export function key(items: [string, string, ("line" | "area" | "outline")?][]): HTMLElement {
-  return h("p", { class: "key" }, ...items.map(([label, colour, shape]) =>
-    h("span", {}, h("i", { class: shape ?? "area", style: `--c:${colour}` }), label)));
+  return h(
+    "p",
+    { class: "key" },
+    ...items.map(([label, colour, shape]) =>
+      h("span", {}, h("i", { class: shape ?? "area", style: `--c:${colour}` }), label),
+    ),
+  );
 }

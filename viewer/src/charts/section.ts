@@ -18,25 +18,73 @@ export interface SectionLook {
 export const STEPS = 9;
 
 /** Filled contours of a signed-distance section, as in Fig. 2. */
-export function sectionChart(grid: DistanceGrid, pieces: Outline, { mm, u, v, label, width, step }: SectionLook): Element {
+export function sectionChart(
+  grid: DistanceGrid,
+  pieces: Outline,
+  { mm, u, v, label, width, step }: SectionLook,
+): Element {
   const values = grid.values.map((value) => value * mm);
   const span = step * STEPS;
   const thresholds = Array.from({ length: 2 * STEPS + 1 }, (_, i) => (i - STEPS) * step);
-  const segments = Array.from({ length: pieces.length / 4 }, (_, i) => Array.from(pieces.subarray(4 * i, 4 * i + 4), (x) => x * mm));
+  const segments = Array.from({ length: pieces.length / 4 }, (_, i) =>
+    Array.from(pieces.subarray(4 * i, 4 * i + 4), (x) => x * mm),
+  );
   const side = Math.min(width, 470);
   return Plot.plot({
-    width: side, height: side, marginLeft: 44, marginBottom: 42, marginTop: 10, marginRight: 10, ariaLabel: `Signed distance in the plane ${label}`, style: { fontSize: "12px" },
-    x: { label: `${u}, mm`, labelAnchor: "center", labelArrow: "none", domain: [grid.low[0] * mm, grid.high[0] * mm], nice: false, ticks: 5 },
-    y: { label: `${v}, mm`, labelAnchor: "center", labelArrow: "none", domain: [grid.low[1] * mm, grid.high[1] * mm], nice: false, ticks: 5 },
-    color: { type: "linear", domain: [-span, span], range: [0, 1], clamp: true, interpolate: () => (t: number) => distanceColour(2 * t - 1) } as Plot.ScaleOptions,
+    width: side,
+    height: side,
+    marginLeft: 44,
+    marginBottom: 42,
+    marginTop: 10,
+    marginRight: 10,
+    ariaLabel: `Signed distance in the plane ${label}`,
+    style: { fontSize: "12px" },
+    x: {
+      label: `${u}, mm`,
+      labelAnchor: "center",
+      labelArrow: "none",
+      domain: [grid.low[0] * mm, grid.high[0] * mm],
+      nice: false,
+      ticks: 5,
+    },
+    y: {
+      label: `${v}, mm`,
+      labelAnchor: "center",
+      labelArrow: "none",
+      domain: [grid.low[1] * mm, grid.high[1] * mm],
+      nice: false,
+      ticks: 5,
+    },
+    color: {
+      type: "linear",
+      domain: [-span, span],
+      range: [0, 1],
+      clamp: true,
+      interpolate: () => (t: number) => distanceColour(2 * t - 1),
+    } as Plot.ScaleOptions,
     marks: [
       Plot.frame({ fill: distanceColour(-1), stroke: null }), // beyond the last contour
       Plot.contour(values, {
-        width: grid.size, height: grid.size,
-        x1: grid.low[0] * mm, y1: grid.low[1] * mm, x2: grid.high[0] * mm, y2: grid.high[1] * mm,
-        thresholds, fill: Plot.identity, stroke: "#00000030", strokeWidth: 0.5,
+        width: grid.size,
+        height: grid.size,
+        x1: grid.low[0] * mm,
+        y1: grid.low[1] * mm,
+        x2: grid.high[0] * mm,
+        y2: grid.high[1] * mm,
+        thresholds,
+        fill: Plot.identity,
+        stroke: "#00000030",
+        strokeWidth: 0.5,
       } as Plot.ContourOptions),
-      Plot.link(segments, { x1: "0", y1: "1", x2: "2", y2: "3", stroke: "#111", strokeWidth: 1.8, strokeLinecap: "round" }),
+      Plot.link(segments, {
+        x1: "0",
+        y1: "1",
+        x2: "2",
+        y2: "3",
+        stroke: "#111",
+        strokeWidth: 1.8,
+        strokeLinecap: "round",
+      }),
     ],
   });
 }
@@ -45,5 +93,5 @@ export function sectionChart(grid: DistanceGrid, pieces: Outline, { mm, u, v, la
 export function niceStep(value: number): number {
   const power = 10 ** Math.floor(Math.log10(value));
   const lead = value / power;
-  return power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
+  return Number((power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1)).toPrecision(1));
 }

@@ -22,10 +22,34 @@ function rejectedShare(stage: Stage): Num {
 }
 
 const MEASURES: Measure[] = [
-  { name: "Coverage", says: "share of the prior set that is some sample's nearest", value: (s) => s.coverage, text: (v) => percent(v), top: 1 },
-  { name: "1-NNA", says: "0.5: not to be told from the prior set; 1: apart", value: (s) => s.nna, text: (v) => fixed(v, 2), top: 1, ideal: 0.5 },
-  { name: "Near-duplicates", says: "share of samples with a near copy among them", value: (s) => s.duplicates, text: (v) => percent(v), top: 1 },
-  { name: "Diversity", says: "mean distance between samples, relative to the prior set", value: (s) => s.diversity, text: (v) => fixed(v, 2) },
+  {
+    name: "Coverage",
+    says: "share of the prior set that is some sample's nearest",
+    value: (s) => s.coverage,
+    text: (v) => percent(v),
+    top: 1,
+  },
+  {
+    name: "1-NNA",
+    says: "0.5: not to be told from the prior set; 1: apart",
+    value: (s) => s.nna,
+    text: (v) => fixed(v, 2),
+    top: 1,
+    ideal: 0.5,
+  },
+  {
+    name: "Near-duplicates",
+    says: "share of samples with a near copy among them",
+    value: (s) => s.duplicates,
+    text: (v) => percent(v),
+    top: 1,
+  },
+  {
+    name: "Diversity",
+    says: "mean distance between samples, relative to the prior set",
+    value: (s) => s.diversity,
+    text: (v) => fixed(v, 2),
+  },
 ];
 
 /** Variety of the samples: one small chart per measure, episodes on a shared axis. */
@@ -35,36 +59,69 @@ export function varietyFigure(stages: Stage[]): HTMLElement | null {
   if (!shown.length) return null;
   const last = Math.max(...[...episodes, ...control].map((s) => s.episode));
   const domain = Array.from({ length: last + 1 }, (_, i) => i);
-  const points = (list: Stage[], m: Measure) => domain.map((i) => {
-    const stage = list.find((s) => s.episode === i);
-    const value = stage ? m.value(stage) : null;
-    return { episode: i, value: known(value) ? value : NaN, label: stage?.label ?? "", text: m.text(value) };
-  });
+  const points = (list: Stage[], m: Measure) =>
+    domain.map((i) => {
+      const stage = list.find((s) => s.episode === i);
+      const value = stage ? m.value(stage) : null;
+      return { episode: i, value: known(value) ? value : NaN, label: stage?.label ?? "", text: m.text(value) };
+    });
   const draw = (width: number) => {
     const columns = width < 420 ? 1 : width < 760 ? 2 : shown.length;
     const each = Math.floor((width - (columns - 1) * 20) / columns);
-    return h("div", { class: "multiples", style: `grid-template-columns: repeat(${columns}, 1fr)` }, ...shown.map((m) => {
-      const line = (list: Stage[], colour: string) => [
-        Plot.lineY(points(list, m), { x: "episode", y: "value", stroke: colour, strokeWidth: 2 }),
-        Plot.dot(points(list, m), { x: "episode", y: "value", fill: colour, r: 3, title: (d: { label: string; text: string }) => `${d.label}: ${d.text}` }),
-      ];
-      const chart = Plot.plot({
-        width: each, height: 150, marginLeft: 38, marginRight: 10, marginBottom: 30, marginTop: 8, ariaLabel: `${m.name} per episode`, style: { fontSize: "11px" },
-        x: { type: "point", domain, label: null, padding: 0.3 },
-        y: { label: null, grid: true, zero: true, ticks: 4, tickFormat: (t: number) => m.text(t), ...(m.top ? { domain: [0, m.top] } : {}) },
-        marks: [
-          m.ideal ? Plot.ruleY([m.ideal], { stroke: COLOURS.ink, strokeOpacity: 0.4, strokeDasharray: "3 4" }) : null,
-          ...(control.length ? line(first ? [first, ...control] : control, COLOURS.control) : []), ...line(episodes, COLOURS.run)],
-      });
-      return h("div", {}, h("h3", {}, m.name), h("p", { class: "note" }, m.says), chart);
-    }));
+    return h(
+      "div",
+      { class: "multiples", style: `grid-template-columns: repeat(${columns}, 1fr)` },
+      ...shown.map((m) => {
+        const line = (list: Stage[], colour: string) => [
+          Plot.lineY(points(list, m), { x: "episode", y: "value", stroke: colour, strokeWidth: 2 }),
+          Plot.dot(points(list, m), {
+            x: "episode",
+            y: "value",
+            fill: colour,
+            r: 3,
+            title: (d: { label: string; text: string }) => `${d.label}: ${d.text}`,
+          }),
+        ];
+        const chart = Plot.plot({
+          width: each,
+          height: 150,
+          marginLeft: 38,
+          marginRight: 10,
+          marginBottom: 30,
+          marginTop: 8,
+          ariaLabel: `${m.name} per episode`,
+          style: { fontSize: "11px" },
+          x: { type: "point", domain, label: null, padding: 0.3 },
+          y: {
+            label: null,
+            grid: true,
+            zero: true,
+            ticks: 4,
+            tickFormat: (t: number) => m.text(t),
+            ...(m.top ? { domain: [0, m.top] } : {}),
+          },
+          marks: [
+            m.ideal ? Plot.ruleY([m.ideal], { stroke: COLOURS.ink, strokeOpacity: 0.4, strokeDasharray: "3 4" }) : null,
+            ...(control.length ? line(first ? [first, ...control] : control, COLOURS.control) : []),
+            ...line(episodes, COLOURS.run),
+          ],
+        });
+        return h("div", {}, h("h3", {}, m.name), h("p", { class: "note" }, m.says), chart);
+      }),
+    );
   };
   return figure({
     title: "Variety and likeness to the prior set",
     caption: "Horizontal axes: episode. What the loop wins in low graspability it pays for in variety.",
-    legend: key([["run", COLOURS.run, "line"], ...(control.length ? [["control", COLOURS.control, "line"] as [string, string, "line"]] : [])]),
+    legend: key([
+      ["run", COLOURS.run, "line"],
+      ...(control.length ? [["control", COLOURS.control, "line"] as [string, string, "line"]] : []),
+    ]),
     draw,
-    numbers: { header: ["stage", ...shown.map((m) => m.name.toLowerCase())], rows: [...episodes, ...control].map((s) => [s.label, ...shown.map((m) => m.text(m.value(s)))]) },
+    numbers: {
+      header: ["stage", ...shown.map((m) => m.name.toLowerCase())],
+      rows: [...episodes, ...control].map((s) => [s.label, ...shown.map((m) => m.text(m.value(s)))]),
+    },
     className: "wide",
   });
 }
@@ -75,29 +132,66 @@ const REASON_COLOURS = ["#d55e00", "#0072b2", "#cc79a7", "#e69f00", "#56b4e9", "
 export function rejectionFigure(stages: Stage[]): HTMLElement | null {
   const counted = stages.filter((s) => s.statuses.length);
   if (!counted.length) return null;
-  const reasons = [...new Set(counted.flatMap((s) => s.statuses.map(([status]) => status)))].filter((status) => status !== "ok");
-  const rows = counted.map((s) => [s.label, count(s.samples), percent(rejectedShare(s), 1),
-    ...reasons.map((reason) => count(s.statuses.find(([status]) => status === reason)?.[1] ?? 0))]);
+  const reasons = [...new Set(counted.flatMap((s) => s.statuses.map(([status]) => status)))].filter(
+    (status) => status !== "ok",
+  );
+  const rows = counted.map((s) => [
+    s.label,
+    count(s.samples),
+    percent(rejectedShare(s), 1),
+    ...reasons.map((reason) => count(s.statuses.find(([status]) => status === reason)?.[1] ?? 0)),
+  ]);
   const numbers = { header: ["stage", "samples", "rejected", ...reasons], rows };
   if (!reasons.length) {
-    return figure({ title: "Rejection by reason", draw: () => h("p", {}, "No sample was rejected in any stage."), numbers });
+    return figure({
+      title: "Rejection by reason",
+      draw: () => h("p", {}, "No sample was rejected in any stage."),
+      numbers,
+    });
   }
-  const bars = counted.flatMap((s) => s.statuses.filter(([status]) => status !== "ok").map(([reason, n]) => {
-    const total = s.samples || s.statuses.reduce((sum, [, k]) => sum + k, 0);
-    return { stage: s.label, reason, share: n / total, title: `${s.label}: ${n} of ${total} ${reason}` };
-  }));
+  const bars = counted.flatMap((s) =>
+    s.statuses
+      .filter(([status]) => status !== "ok")
+      .map(([reason, n]) => {
+        const total = s.samples || s.statuses.reduce((sum, [, k]) => sum + k, 0);
+        return { stage: s.label, reason, share: n / total, title: `${s.label}: ${n} of ${total} ${reason}` };
+      }),
+  );
   const digits = Math.max(...counted.map((s) => rejectedShare(s) ?? 0)) < 0.05 ? 1 : 0;
   const colour = (reason: string) => REASON_COLOURS[reasons.indexOf(reason) % REASON_COLOURS.length];
   return figure({
     title: "Rejection by reason",
     caption: "Samples that are no single closed solid, or could not be scored.",
     legend: key(reasons.map((reason) => [reason, colour(reason)])),
-    draw: (width) => Plot.plot({
-      width, height: counted.length * 26 + 50, marginLeft: 84, marginRight: 20, marginBottom: 40, marginTop: 6, ariaLabel: "Rejected samples by reason and stage", style: { fontSize: "12px" },
-      x: { label: "share of samples", labelAnchor: "center", labelArrow: "none", tickFormat: (t: number) => percent(t, digits), grid: true, ticks: 5 },
-      y: { domain: counted.map((s) => s.label), label: null, padding: 0.3, tickFormat: (t: string) => short(t, 11) },
-      marks: [Plot.barX(bars, { y: "stage", x: "share", fill: (d: { reason: string }) => colour(d.reason), title: "title" }), Plot.ruleX([0], { stroke: COLOURS.ink, strokeOpacity: 0.5 })],
-    }),
+    draw: (width) =>
+      Plot.plot({
+        width,
+        height: counted.length * 26 + 50,
+        marginLeft: 84,
+        marginRight: 20,
+        marginBottom: 40,
+        marginTop: 6,
+        ariaLabel: "Rejected samples by reason and stage",
+        style: { fontSize: "12px" },
+        x: {
+          label: "share of samples",
+          labelAnchor: "center",
+          labelArrow: "none",
+          tickFormat: (t: number) => percent(t, digits),
+          grid: true,
+          ticks: 5,
+        },
+        y: { domain: counted.map((s) => s.label), label: null, padding: 0.3, tickFormat: (t: string) => short(t, 11) },
+        marks: [
+          Plot.barX(bars, {
+            y: "stage",
+            x: "share",
+            fill: (d: { reason: string }) => colour(d.reason),
+            title: "title",
+          }),
+          Plot.ruleX([0], { stroke: COLOURS.ink, strokeOpacity: 0.5 }),
+        ],
+      }),
     numbers,
   });
 }

@@ -2,7 +2,10 @@ import { h } from "../dom";
 
 /** A name that every file system takes: names of objects may hold anything. */
 export function fileName(name: string, ending: string): string {
-  const safe = name.replace(/[^A-Za-z0-9._-]+/g, "_").replace(/^[._]+/, "").slice(0, 80);
+  const safe = name
+    .replace(/[^A-Za-z0-9._-]+/g, "_")
+    .replace(/^[._]+/, "")
+    .slice(0, 80);
   return `${safe || "object"}.${ending}`;
 }
 

@@ -16,8 +16,7 @@ export interface Grasp {
 
 const FLOATS = 17;
 
-/** Grasps of a part, best quality first, as they are stored. */
-export function decodeGrasps(part: Part | null | undefined): Grasp[] {
+function decodeGrasps(part: Part | null | undefined): Grasp[] {
   if (!part) return [];
   const bytes = bytesOf(part);
   const view = new DataView(bytes.buffer);
@@ -27,10 +26,24 @@ export function decodeGrasps(part: Part | null | undefined): Grasp[] {
     const vec = (k: number): Vec => [at(k), at(k + 1), at(k + 2)];
     const approach = vec(12);
     grasps.push({
-      p1: vec(0), p2: vec(3), n1: vec(6), n2: vec(9),
+      p1: vec(0),
+      p2: vec(3),
+      n1: vec(6),
+      n2: vec(9),
       approach: Math.hypot(...approach) > 0.5 ? approach : null,
-      quality: at(15), width: at(16),
+      quality: at(15),
+      width: at(16),
     });
   }
   return grasps;
+}
+
+/** Grasps of a part, best quality first, as they are stored; none where they cannot be read (said on the console). */
+export function graspsOf(part: Part | null | undefined): Grasp[] {
+  try {
+    return decodeGrasps(part);
+  } catch (error) {
+    console.warn("antigrasp: grasps cannot be decoded", error);
+    return [];
+  }
 }

@@ -36,7 +36,8 @@ export function decodeMesh(record: MeshRecord): Mesh {
   const indexBytes = new Uint8Array(record.triangles * 12);
   MeshoptDecoder.decodeIndexBuffer(indexBytes, record.triangles * 3, 4, bytesOf(record.indices));
   const indices = new Uint32Array(indexBytes.buffer);
-  for (const index of indices) if (index >= record.vertices) throw new RangeError("a triangle names a vertex that does not exist");
+  for (const index of indices)
+    if (index >= record.vertices) throw new RangeError("a triangle names a vertex that does not exist");
   return { positions, indices, min, max };
 }
 

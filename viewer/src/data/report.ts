@@ -140,8 +140,16 @@ export function readReport(text: string): Report | string {
     run: raw.run ? { stages: raw.run.stages ?? [], losses: raw.run.losses ?? [] } : null,
     groups,
     // An object of no known stage is shown with the first: no object is ever lost.
-    objects: objects.map((object) => (groups[object.group] ? object : { ...object, group: 0 })),
+    objects: objects.map((object) => normalised(object, groups.length)),
   };
+}
+
+// Pages divide by the size and look the stage up: neither may be missing.
+function normalised(object: ObjectRecord, groups: number): ObjectRecord {
+  const size = (shape: Shape) => (shape.metres_per_unit > 0 ? shape.metres_per_unit : 1);
+  const pair = object.pair ? { ...object.pair, metres_per_unit: size(object.pair) } : null;
+  const group = object.group >= 0 && object.group < groups ? object.group : 0;
+  return { ...object, group, pair, metres_per_unit: size(object) };
 }
 
 /** Graspability of an object, null where it was not measured. */
@@ -149,8 +157,8 @@ export function graspability(shape: Shape | null | undefined): Num {
   return shape?.score?.graspability ?? null;
 }
 
-// Scored like any other, on few grasps or none; or changed less than was asked for.
-const USABLE = new Set(["ok", "few_grasps", "no_grasps", "interrupted"]);
+// Scored like any other, on few grasps or none.
+const USABLE = new Set(["ok", "few_grasps", "no_grasps"]);
 
 /** True for what is no object: not a closed solid, or no printable result. It may still have a mesh and numbers. */
 export function isRejected(object: ObjectRecord): boolean {

@@ -33,14 +33,17 @@ export function outline(mesh: Mesh, axis: Axis, at: number): Outline {
   const turn = axis === 1 ? -1 : 1;
   const pieces: number[] = [];
   const cross = (below: number, above: number) => {
-    const a = 3 * below, b = 3 * above;
+    const a = 3 * below,
+      b = 3 * above;
     const t = (at - p[a + axis]) / (p[b + axis] - p[a + axis]);
     return [p[a + u] + t * (p[b + u] - p[a + u]), p[a + v] + t * (p[b + v] - p[a + v])];
   };
   for (let f = 0; f < indices.length; f += 3) {
-    let up: number[] | null = null, down: number[] | null = null;
+    let up: number[] | null = null,
+      down: number[] | null = null;
     for (let k = 0; k < 3; ++k) {
-      const from = indices[f + k], to = indices[f + ((k + 1) % 3)];
+      const from = indices[f + k],
+        to = indices[f + ((k + 1) % 3)];
       const above = p[3 * from + axis] >= at;
       if (above === p[3 * to + axis] >= at) continue;
       if (above) down = cross(to, from);
@@ -60,13 +63,15 @@ export function outline(mesh: Mesh, axis: Axis, at: number): Outline {
 function insideRow(pieces: Outline, v: number, low: number, step: number, inside: Uint8Array): void {
   const crossings: [number, number][] = [];
   for (let i = 0; i < pieces.length; i += 4) {
-    const from = pieces[i + 1] >= v, to = pieces[i + 3] >= v;
+    const from = pieces[i + 1] >= v,
+      to = pieces[i + 3] >= v;
     if (from === to) continue;
     const t = (v - pieces[i + 1]) / (pieces[i + 3] - pieces[i + 1]);
     crossings.push([pieces[i] + t * (pieces[i + 2] - pieces[i]), to ? -1 : 1]);
   }
   crossings.sort((a, b) => a[0] - b[0]);
-  let winding = 0, next = 0;
+  let winding = 0,
+    next = 0;
   for (let i = 0; i < inside.length; ++i) {
     const u = low + i * step;
     while (next < crossings.length && crossings[next][0] <= u) winding += crossings[next++][1];
@@ -75,13 +80,22 @@ function insideRow(pieces: Outline, v: number, low: number, step: number, inside
 }
 
 /** Exact signed distances to the whole surface (not to the outline) at size x size samples of the plane. */
-export function signedDistances(tree: MeshBVH, pieces: Outline, axis: Axis, at: number, low: [number, number], high: [number, number], size: number): DistanceGrid {
+export function signedDistances(
+  tree: MeshBVH,
+  pieces: Outline,
+  axis: Axis,
+  at: number,
+  low: [number, number],
+  high: [number, number],
+  size: number,
+): DistanceGrid {
   const [u, v] = PLANE_AXES[axis];
   const values = new Float64Array(size * size);
   const inside = new Uint8Array(size);
   const point = new Vector3().setComponent(axis, at);
   const hit: HitPointInfo = { point: new Vector3(), distance: 0, faceIndex: 0 };
-  const stepU = (high[0] - low[0]) / (size - 1), stepV = (high[1] - low[1]) / (size - 1);
+  const stepU = (high[0] - low[0]) / (size - 1),
+    stepV = (high[1] - low[1]) / (size - 1);
   for (let j = 0; j < size; ++j) {
     const atV = low[1] + j * stepV;
     insideRow(pieces, atV, low[0], stepU, inside);

@@ -16,7 +16,8 @@ export function meanOf(stage: Stage | undefined): Estimate | null {
 export function ratio(a: Estimate | null, b: Estimate | null): Estimate | null {
   if (!a || !b || b.value === 0) return null;
   const value = a.value / b.value;
-  const half = known(a.half) && known(b.half) ? Math.abs(value) * Math.hypot(a.half / a.value || 0, b.half / b.value) : null;
+  const half =
+    known(a.half) && known(b.half) ? Math.abs(value) * Math.hypot(a.half / a.value || 0, b.half / b.value) : null;
   return Number.isFinite(value) ? { value, half } : null;
 }
 
@@ -25,7 +26,8 @@ export function pairedReduction(before: number[], after: number[]): Estimate | n
   const n = before.length;
   if (n === 0) return null;
   const mean = (x: number[]) => x.reduce((a, b) => a + b, 0) / n;
-  const a = mean(after), b = mean(before);
+  const a = mean(after),
+    b = mean(before);
   if (!(b > 0)) return null;
   const r = a / b;
   // The ratio's error is that of the mean of (after - r before) / b: what both have in common cancels.

@@ -10,7 +10,8 @@ export interface StlPlan {
 
 /** The size and pose in which an object would be printed; the size of the measurement when no other is known. */
 export function stlPlan(object: ObjectRecord, mesh: Mesh): StlPlan {
-  const pose = object.print?.pose?.length === 3 && object.print.pose.every((row) => row.length === 3) ? object.print.pose : null;
+  const pose =
+    object.print?.pose?.length === 3 && object.print.pose.every((row) => row.length === 3) ? object.print.pose : null;
   const size = object.print?.size_mm;
   const largest = size ? Math.max(...size) : 0;
   const extent = Math.max(...[0, 1, 2].map((k) => mesh.max[k] - mesh.min[k]));
@@ -31,7 +32,9 @@ export function writeStl(mesh: Mesh, plan: StlPlan): ArrayBuffer {
     const at = 84 + 50 * t;
     const corner = [0, 1, 2].map((k) => 3 * mesh.indices[3 * t + k]);
     const edge = (to: number, k: number) => points[corner[to] + k] - points[corner[0] + k];
-    const normal = [0, 1, 2].map((k) => edge(1, (k + 1) % 3) * edge(2, (k + 2) % 3) - edge(1, (k + 2) % 3) * edge(2, (k + 1) % 3));
+    const normal = [0, 1, 2].map(
+      (k) => edge(1, (k + 1) % 3) * edge(2, (k + 2) % 3) - edge(1, (k + 2) % 3) * edge(2, (k + 1) % 3),
+    );
     const length = Math.hypot(...normal) || 1;
     normal.forEach((value, k) => view.setFloat32(at + 4 * k, value / length, true));
     corner.forEach((c, i) => {
@@ -43,7 +46,8 @@ export function writeStl(mesh: Mesh, plan: StlPlan): ArrayBuffer {
 
 function placed(mesh: Mesh, { scale, pose }: StlPlan): Float64Array {
   const points = new Float64Array(mesh.positions.length);
-  const min = [Infinity, Infinity, Infinity], max = [-Infinity, -Infinity, -Infinity];
+  const min = [Infinity, Infinity, Infinity],
+    max = [-Infinity, -Infinity, -Infinity];
   for (let v = 0; v < points.length; v += 3) {
     const p = [mesh.positions[v], mesh.positions[v + 1], mesh.positions[v + 2]];
     for (let k = 0; k < 3; ++k) {

@@ -24,7 +24,13 @@ let state: GalleryState | null = null;
 
 export function galleryState(report: Report): GalleryState {
   state ??= {
-    groups: new Set(report.groups.map((_, i) => i)), sort: "stored", byStage: true, status: "all", text: "", together: true, scroll: 0,
+    groups: new Set(report.groups.map((_, i) => i)),
+    sort: "stored",
+    byStage: true,
+    status: "all",
+    text: "",
+    together: true,
+    scroll: 0,
   };
   return state;
 }
@@ -46,7 +52,8 @@ function ordered(report: Report, objects: number[], sort: SortKey): number[] {
   if (sort === "name") return [...objects].sort(byName);
   const sign = sort === "ascending" ? 1 : -1;
   return [...objects].sort((a, b) => {
-    const x = graspability(report.objects[a]), y = graspability(report.objects[b]);
+    const x = graspability(report.objects[a]),
+      y = graspability(report.objects[b]);
     if (x === null || y === null) return x === y ? byName(a, b) : x === null ? 1 : -1;
     return sign * (x - y) || byName(a, b);
   });
@@ -55,9 +62,17 @@ function ordered(report: Report, objects: number[], sort: SortKey): number[] {
 /** The gallery's sections from top to bottom; stages without an object that passes are left out. */
 export function gallerySections(report: Report, s: GalleryState): Section[] {
   const all = report.objects.map((_, i) => i).filter((i) => passes(report.objects[i], s));
-  if (!s.byStage || report.groups.length < 2) return all.length ? [{ group: -1, objects: ordered(report, all, s.sort) }] : [];
+  if (!s.byStage || report.groups.length < 2)
+    return all.length ? [{ group: -1, objects: ordered(report, all, s.sort) }] : [];
   return report.groups
-    .map((_, group) => ({ group, objects: ordered(report, all.filter((i) => report.objects[i].group === group), s.sort) }))
+    .map((_, group) => ({
+      group,
+      objects: ordered(
+        report,
+        all.filter((i) => report.objects[i].group === group),
+        s.sort,
+      ),
+    }))
     .filter((section) => section.objects.length > 0);
 }
 

@@ -1,20 +1,17 @@
-import { PerspectiveCamera, Vector3 } from "three";
-import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { HEAT_GRADIENT } from "../colours";
 import { tick } from "../controls";
-import { download, fileName } from "../data/download";
-import { decodeGrasps, type Grasp } from "../data/grasps";
+import { type Grasp, graspsOf } from "../data/grasps";
 import { type Mesh, meshOf } from "../data/mesh";
-import { graspability, isRejected, type ObjectRecord, remark, type Report, type Shape } from "../data/report";
-import { stlPlan, writeStl } from "../data/stl";
+import { graspability, type ObjectRecord, type Report, type Shape } from "../data/report";
 import { h } from "../dom";
-import { count, fixed, known, milli, MILLI_UNIT } from "../format";
-import { objectLink, type Page } from "../router";
+import { fixed, known, milli, MILLI_UNIT } from "../format";
+import type { Page } from "../router";
+import { type Bounds, setUpCamera } from "../three/object_camera";
 import { ObjectPanel } from "../three/object_panel";
 import { onSchemeChange } from "../three/scene";
 import { NO_WEBGL, Surface } from "../three/surface";
-import { galleryOrder } from "./gallery_order";
 import { graspControls } from "./object_grasps";
+import { objectButtons, objectHead } from "./object_head";
 import { metricTable, numbersTable, printTable } from "./object_numbers";
 import { sectionFigure } from "./object_section";
 
@@ -25,162 +22,160 @@ interface Side {
 }
 
 function sidesOf(object: ObjectRecord): Side[] {
-  const shapes: Shape[] = object.pair ? [{ label: "before", ...object.pair }, { ...object, label: object.label ?? "after" }] : [object];
+  const shapes: Shape[] = object.pair
+    ? [
+        { label: "before", ...object.pair },
+        { ...object, label: object.label ?? "after" },
+      ]
+    : [object];
   return shapes.flatMap((shape) => {
     const mesh = meshOf(shape);
-    return mesh ? [{ shape, mesh, grasps: decodeGrasps(shape.grasps) }] : [];
+    return mesh ? [{ shape, mesh, grasps: graspsOf(shape.grasps) }] : [];
   });
 }
 
-function boundsOf(sides: Side[]) {
+function boundsOf(sides: Side[]): Bounds {
   const pick = (k: number, f: (...x: number[]) => number, key: "min" | "max") => f(...sides.map((s) => s.mesh[key][k]));
   const min = [0, 1, 2].map((k) => pick(k, Math.min, "min")) as [number, number, number];
   const max = [0, 1, 2].map((k) => pick(k, Math.max, "max")) as [number, number, number];
   return { min, max, extent: Math.max(...[0, 1, 2].map((k) => max[k] - min[k])) };
 }
 
-function head(report: Report, object: ObjectRecord, index: number): HTMLElement {
-  const order = galleryOrder(report);
-  const at = order.indexOf(index);
-  const link = (text: string, to: number | undefined, rel: string) => (to === undefined
-    ? h("span", { class: "step off" }, text)
-    : h("a", { class: "step", href: objectLink(to), rel }, text));
-  const facts = [report.groups[object.group]?.label ?? "", object.elite ? "elite" : "", remark(object), object.mesh ? `${count(object.mesh.triangles)} triangles${object.mesh.full_triangles ? `, decimated from ${count(object.mesh.full_triangles)}` : ""}` : ""];
-  return h("div", { class: "page-head" },
-    h("nav", { class: "steps", "aria-label": "Neighbouring objects" }, h("a", { href: "#/gallery" }, "All objects"),
-      link("← previous", at > 0 ? order[at - 1] : undefined, "prev"), link("next →", at >= 0 ? order[at + 1] : order[0], "next")),
-    h("h1", { tabindex: -1 }, object.name),
-    h("p", { class: "lead" }, facts.filter(Boolean).join(" · ")),
-    isRejected(object) ? h("p", { class: "notice bad" }, `Rejected: ${object.status}`) : null);
-}
-
-/** "Download STL" and "Save PNG"; STL works without WebGL. */
-function buttons(object: ObjectRecord, surface: Surface | null): HTMLElement {
-  const mesh = meshOf(object);
-  const save = mesh ? h("button", { type: "button", onclick: () => {
-    download(new Blob([writeStl(mesh, stlPlan(object, mesh))], { type: "model/stl" }), fileName(object.name, "stl"));
-  } }, "Download STL") : null;
-  const plan = mesh ? stlPlan(object, mesh) : null;
-  const size = mesh && plan ? [0, 1, 2].map((k) => fixed((mesh.max[k] - mesh.min[k]) * plan.scale, 0)).join(" × ") : "";
-  const says = plan ? `STL: millimetres, ${size} mm${plan.pose ? ", in the suggested print pose" : ""}${object.mesh?.full_triangles ? ", decimated as shown" : ""}.` : "";
-  return h("div", { class: "buttons" }, save,
-    surface ? h("button", { type: "button", onclick: async () => {
-      const blob = await surface.png();
-      if (blob) download(blob, fileName(object.name, "png"));
-    } }, "Save PNG") : null, h("span", { class: "note" }, says));
-}
-
 function heatControls(object: ObjectRecord, panel: ObjectPanel, redraw: () => void): HTMLElement | null {
   const pair = object.pair;
   if (!pair?.displacement || !known(pair.max_displacement)) return null;
   const part = pair.displacement;
-  const legend = h("div", { class: "legend", hidden: true }, h("span", {}, "0"), h("i", { style: `background:${HEAT_GRADIENT}` }),
-    h("span", {}, `${fixed(pair.max_displacement * object.metres_per_unit * 1000, 2)} mm`));
-  return h("section", { class: "panel-box" }, h("h2", {}, "Displacement"),
+  const legend = h(
+    "div",
+    { class: "legend", hidden: true },
+    h("span", {}, "0"),
+    h("i", { style: `background:${HEAT_GRADIENT}` }),
+    h("span", {}, `${fixed(pair.max_displacement * object.metres_per_unit * 1000, 2)} mm`),
+  );
+  return h(
+    "section",
+    { class: "panel-box" },
+    h("h2", {}, "Displacement"),
     tick("colour the changed object by its distance to the original", false, (on) => {
       legend.hidden = !on;
       panel.showHeat(on ? part : null);
       redraw();
-    }), legend);
+    }),
+    legend,
+  );
 }
 
-function setUpCamera(host: HTMLElement, bounds: ReturnType<typeof boundsOf>, redraw: () => void): { camera: PerspectiveCamera; controls: OrbitControls } {
-  const camera = new PerspectiveCamera(27, 1, 0.01 * bounds.extent, 60 * bounds.extent);
-  camera.up.set(0, 0, 1);
-  const centre = new Vector3(...[0, 1, 2].map((k) => (bounds.min[k] + bounds.max[k]) / 2) as [number, number, number]);
-  camera.position.copy(centre).add(new Vector3(1.5, -3.1, 1.65).multiplyScalar(bounds.extent * 0.84));
-  const controls = new OrbitControls(camera, host);
-  controls.target.copy(centre);
-  controls.enableDamping = false;
-  controls.minDistance = 0.4 * bounds.extent;
-  controls.maxDistance = 20 * bounds.extent;
-  // The wheel belongs to the page until the view has been clicked or tabbed to; fingers may still scroll up and down.
-  controls.enableZoom = false;
-  host.addEventListener("focusin", () => { controls.enableZoom = true; });
-  host.addEventListener("focusout", () => { controls.enableZoom = false; });
-  host.style.touchAction = "pan-y";
-  host.addEventListener("keydown", (event) => {
-    const turn = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-    const zoom = event.key === "+" || event.key === "=" ? 0.9 : event.key === "-" ? 1 / 0.9 : 1;
-    if (!turn && zoom === 1) return;
-    event.preventDefault();
-    const offset = camera.position.clone().sub(controls.target).multiplyScalar(zoom);
-    if (turn) {
-      offset.applyAxisAngle(camera.up, (turn[0] * Math.PI) / 18);
-      const side = offset.clone().cross(camera.up).normalize();
-      const tilted = offset.clone().applyAxisAngle(side, (-turn[1] * Math.PI) / 18);
-      if (Math.abs(tilted.clone().normalize().z) < 0.98) offset.copy(tilted);
-    }
-    camera.position.copy(controls.target).add(offset);
-    controls.update();
-    redraw();
-  });
-  controls.addEventListener("change", redraw);
-  controls.update();
-  return { camera, controls };
+interface View {
+  host: HTMLElement;
+  /** null without WebGL. */
+  surface: Surface | null;
+  panels: ObjectPanel[];
+  bounds: Bounds;
+  /** Quality of the best grasp of all sides: what is drawn green. */
+  best: number;
+  redraw: () => void;
+  dispose: () => void;
 }
 
-export function objectPage(report: Report, index: number): Page {
-  const object = report.objects[index];
-  const sides = sidesOf(object);
-  const tables = [metricTable(object), numbersTable(object), printTable(object)];
-  if (!sides.length) {
-    const why = object.mesh ? "The mesh of this object cannot be decoded." : "This object has no mesh.";
-    return { title: object.name, element: h("main", { class: "object" }, head(report, object, index), h("p", { class: "notice" }, why), h("div", { class: "tables" }, ...tables)) };
-  }
+/** The 3D view of all sides under one camera. */
+function buildView(object: ObjectRecord, sides: Side[], friction: number): View {
   const bounds = boundsOf(sides);
   const pictures = sides.map(() => h("div", { class: "panel-picture" }));
-  const host = h("div", { class: "panels", tabindex: 0, role: "application", "aria-label": `3D view of ${object.name}: arrow keys turn, plus and minus zoom` },
-    ...sides.map(({ shape }, i) => h("figure", {}, pictures[i], h("figcaption", {},
-      sides.length > 1 || object.pair ? h("b", {}, shape.label ?? "") : null,
-      h("span", {}, `graspability ${milli(graspability(shape))}\u00a0${MILLI_UNIT}`)))));
+  const caption = (shape: Shape) =>
+    h(
+      "figcaption",
+      {},
+      object.pair ? h("b", {}, shape.label ?? "") : null,
+      h("span", {}, `graspability ${milli(graspability(shape))}\u00a0${MILLI_UNIT}`),
+    );
+  const label = `3D view of ${object.name}: arrow keys turn, plus and minus zoom`;
+  const host = h(
+    "div",
+    { class: "panels", tabindex: 0, role: "application", "aria-label": label },
+    ...sides.map(({ shape }, i) => h("figure", {}, pictures[i], caption(shape))),
+  );
   const panels: ObjectPanel[] = [];
   const surface = Surface.over(host, () => panels);
   const redraw = () => surface?.invalidate();
   const { camera, controls } = setUpCamera(host, bounds, redraw);
   const best = Math.max(0, ...sides.flatMap((side) => side.grasps.map((grasp) => grasp.quality)));
-  const friction = report.metric?.friction ?? 0.5;
-  sides.forEach((side, i) => panels.push(new ObjectPanel(pictures[i], camera, side.shape, side.mesh, side.grasps, bounds.extent, { extent: bounds.extent, best, friction })));
+  const scale = { extent: bounds.extent, best, friction };
+  sides.forEach(({ shape, mesh, grasps }, i) =>
+    panels.push(new ObjectPanel(pictures[i], camera, shape, mesh, grasps, scale)),
+  );
+  const stopScheme = onSchemeChange(() => {
+    panels.forEach((panel) => panel.restyle());
+    redraw();
+  });
+  const dispose = () => {
+    stopScheme();
+    controls.dispose();
+    panels.forEach((panel) => panel.dispose());
+    surface?.dispose();
+  };
+  return { host, surface, panels, bounds, best, redraw, dispose };
+}
 
-  const grasps = graspControls(panels, best, report.metric, report.gripper, redraw);
-  const changed = panels[panels.length - 1];
+/** A click on an axis, not the end of a drag, chooses its grasp. */
+function listenToClicks({ host, panels }: View, choose: (rank: number) => void): void {
   let pressed: { x: number; y: number } | null = null;
-  host.addEventListener("pointerdown", (event) => { pressed = { x: event.clientX, y: event.clientY }; });
+  host.addEventListener("pointerdown", (event) => {
+    pressed = { x: event.clientX, y: event.clientY };
+  });
   host.addEventListener("click", (event) => {
     if (!pressed || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > 4) return;
     // Not by the event's target: the camera's controls have captured the pointer for the whole host.
     const panel = panels.find((p) => p.covers(event.clientX, event.clientY));
     const rank = panel?.pick(event.clientX, event.clientY) ?? null;
-    if (rank !== null) grasps?.choose(rank);
+    if (rank !== null) choose(rank);
   });
-  const section = sectionFigure(panels, bounds, bounds.extent, redraw);
-  const stopScheme = onSchemeChange(() => {
-    panels.forEach((panel) => panel.restyle());
-    redraw();
-  });
+}
+
+/** The view with what belongs right below it. */
+function viewColumn(object: ObjectRecord, { host, surface, panels, redraw }: View): HTMLElement {
+  if (!surface) return h("div", { class: "object-main" }, objectButtons(object, null));
+  const hint = "Drag to turn; click first, then the wheel zooms; click an axis to choose its grasp.";
   const translucent = tick("see through the object", false, (on) => {
     panels.forEach((panel) => panel.showTranslucent(on));
     redraw();
   });
-  const element = h("main", { class: "object" }, head(report, object, index),
-    surface ? null : h("p", { class: "notice", role: "alert" }, NO_WEBGL),
-    h("div", { class: "object-grid" },
-      h("div", { class: "object-main" }, surface ? host : null,
-        surface ? h("p", { class: "note hint" }, "Drag to turn; click first, then the wheel zooms; click an axis to choose its grasp.") : null,
-        h("div", { class: "under" }, buttons(object, surface), surface ? translucent : null)),
-      h("div", { class: "side" }, grasps?.element ?? h("section", { class: "panel-box" }, h("h2", {}, "Grasps"), h("p", { class: "note" }, "No grasps of this object are stored.")),
-        sides.length > 1 ? heatControls(object, changed, redraw) : null, ...tables),
-      section.element));
-  return {
-    title: object.name,
-    element,
-    mounted: redraw,
-    dispose: () => {
-      stopScheme();
-      section.dispose();
-      controls.dispose();
-      panels.forEach((panel) => panel.dispose());
-      surface?.dispose();
-    },
+  const under = h("div", { class: "under" }, objectButtons(object, surface), translucent);
+  return h("div", { class: "object-main" }, host, h("p", { class: "note" }, hint), under);
+}
+
+function noGrasps(): HTMLElement {
+  const text = h("p", { class: "note" }, "No grasps of this object are stored.");
+  return h("section", { class: "panel-box" }, h("h2", {}, "Grasps"), text);
+}
+
+export function objectPage(report: Report, index: number): Page {
+  const object = report.objects[index];
+  const sides = sidesOf(object);
+  const head = objectHead(report, object, index);
+  const tables = [metricTable(object), numbersTable(object), printTable(object)];
+  if (!sides.length) {
+    const why = object.mesh ? "The mesh of this object cannot be decoded." : "This object has no mesh.";
+    const notice = h("p", { class: "notice" }, why);
+    const element = h("main", { class: "object" }, head, notice, h("div", { class: "tables" }, ...tables));
+    return { title: object.name, element };
+  }
+  const view = buildView(object, sides, report.metric?.friction ?? 0.5);
+  const { panels, redraw } = view;
+  const grasps = graspControls(panels, view.best, report.metric, report.gripper, redraw);
+  if (grasps) listenToClicks(view, grasps.choose);
+  const section = sectionFigure(panels, view.bounds, redraw);
+  const heat = sides.length > 1 ? heatControls(object, panels[1], redraw) : null;
+  const side = h("div", { class: "side" }, grasps?.element ?? noGrasps(), heat, ...tables);
+  const element = h(
+    "main",
+    { class: "object" },
+    head,
+    view.surface ? null : h("p", { class: "notice", role: "alert" }, NO_WEBGL),
+    h("div", { class: "object-grid" }, viewColumn(object, view), side, section.element),
+  );
+  const dispose = () => {
+    section.dispose();
+    view.dispose();
   };
+  return { title: object.name, element, mounted: redraw, dispose };
 }

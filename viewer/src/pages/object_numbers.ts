@@ -3,9 +3,18 @@ import { h } from "../dom";
 import { count, fixed, known, milli, MILLI_UNIT, NONE, percent } from "../format";
 
 function rowsOf(rows: [string, ...string[]][], header: string[] | null): HTMLElement {
-  return h("table", { class: header ? "numbers pair" : "numbers" },
+  return h(
+    "table",
+    { class: header ? "numbers pair" : "numbers" },
     header ? h("thead", {}, h("tr", {}, ...header.map((text) => h("th", { scope: "col" }, text)))) : null,
-    h("tbody", {}, ...rows.map(([label, ...cells]) => h("tr", {}, h("th", { scope: "row" }, label), ...cells.map((cell) => h("td", {}, cell))))));
+    h(
+      "tbody",
+      {},
+      ...rows.map(([label, ...cells]) =>
+        h("tr", {}, h("th", { scope: "row" }, label), ...cells.map((cell) => h("td", {}, cell))),
+      ),
+    ),
+  );
 }
 
 function interval(score: Score | null): string {
@@ -13,14 +22,18 @@ function interval(score: Score | null): string {
 }
 
 function change(before: Score | null | undefined, after: Score | null): string {
-  const a = before?.graspability, b = after?.graspability;
+  const a = before?.graspability,
+    b = after?.graspability;
   return known(a) && known(b) && a > 0 ? percent(b / a - 1, 1) : NONE;
 }
 
 /** The metric of the object, and of its original where there is one. */
 export function metricTable(object: ObjectRecord): HTMLElement {
   const sides = object.pair ? [object.pair.score, object.score] : [object.score];
-  const row = (label: string, text: (score: Score | null) => string): [string, ...string[]] => [label, ...sides.map(text)];
+  const row = (label: string, text: (score: Score | null) => string): [string, ...string[]] => [
+    label,
+    ...sides.map(text),
+  ];
   const rows = [
     row(`graspability, ${MILLI_UNIT}`, (s) => milli(s?.graspability, 3)),
     row("95 % interval", interval),
@@ -29,15 +42,34 @@ export function metricTable(object: ObjectRecord): HTMLElement {
     row("grasps sampled", (s) => count(s?.num_grasps)),
   ];
   const header = object.pair ? ["", object.pair.label ?? "before", object.label ?? "after"] : null;
-  return h("section", { class: "panel-box" }, h("h2", {}, "Metric"),
-    object.pair ? h("p", { class: "big-change" }, h("b", {}, change(object.pair.score, object.score)), h("span", {}, " graspability")) : null,
-    rowsOf(rows, header));
+  return h(
+    "section",
+    { class: "panel-box" },
+    h("h2", {}, "Metric"),
+    object.pair
+      ? h(
+          "p",
+          { class: "big-change" },
+          h("b", {}, change(object.pair.score, object.score)),
+          h("span", {}, " graspability"),
+        )
+      : null,
+    rowsOf(rows, header),
+  );
 }
 
 /** Similarity and whatever else the binary put beside the object; null when there is nothing. */
 export function numbersTable(object: ObjectRecord): HTMLElement | null {
   if (!object.numbers?.length) return null;
-  return h("section", { class: "panel-box" }, h("h2", {}, object.pair ? "Similarity" : "Numbers"), rowsOf(object.numbers.map(([label, text]) => [label, text]), null));
+  return h(
+    "section",
+    { class: "panel-box" },
+    h("h2", {}, object.pair ? "Similarity" : "Numbers"),
+    rowsOf(
+      object.numbers.map(([label, text]) => [label, text]),
+      null,
+    ),
+  );
 }
 
 export function printTable(object: ObjectRecord): HTMLElement | null {
@@ -48,8 +80,20 @@ export function printTable(object: ObjectRecord): HTMLElement | null {
     ["thinnest wall, mm", fixed(print.wall_mm, 2)],
     ["watertight", print.watertight === true ? "yes" : print.watertight === false ? "no" : NONE],
     ["overhanging share of the surface", percent(print.overhang)],
-    ["suggested pose", print.pose ? (known(print.pose_probability) ? `stable, probability ${fixed(print.pose_probability, 2)}` : "stable") : NONE],
+    [
+      "suggested pose",
+      print.pose
+        ? known(print.pose_probability)
+          ? `stable, probability ${fixed(print.pose_probability, 2)}`
+          : "stable"
+        : NONE,
+    ],
   ];
-  return h("section", { class: "panel-box" }, h("h2", {}, "Print check"), rowsOf(rows, null),
-    print.notes?.length ? h("ul", { class: "warnings" }, ...print.notes.map((note) => h("li", {}, note))) : null);
+  return h(
+    "section",
+    { class: "panel-box" },
+    h("h2", {}, "Print check"),
+    rowsOf(rows, null),
+    print.notes?.length ? h("ul", { class: "warnings" }, ...print.notes.map((note) => h("li", {}, note))) : null,
+  );
 }

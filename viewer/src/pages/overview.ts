@@ -19,8 +19,18 @@ interface Headline {
 
 function headlineTiles(lines: Headline[]): HTMLElement | null {
   if (!lines.length) return null;
-  return h("dl", { class: "headline" }, ...lines.map((line) =>
-    h("div", {}, h("dd", {}, h("b", {}, line.value), line.half ? " " : null, line.half ? h("span", {}, line.half) : null), h("dt", {}, line.says))));
+  return h(
+    "dl",
+    { class: "headline" },
+    ...lines.map((line) =>
+      h(
+        "div",
+        {},
+        h("dd", {}, h("b", {}, line.value), line.half ? " " : null, line.half ? h("span", {}, line.half) : null),
+        h("dt", {}, line.says),
+      ),
+    ),
+  );
 }
 
 function asHeadline(e: Estimate | null, says: (lower: string) => string): Headline[] {
@@ -49,7 +59,10 @@ function runHeadline(report: Report): { lead: string; tiles: Headline[] } {
 
 function pairedHeadline(report: Report): { lead: string; tiles: Headline[] } {
   const pairs = pairPoints(report.objects);
-  const reduction = pairedReduction(pairs.map((p) => p.before), pairs.map((p) => p.after));
+  const reduction = pairedReduction(
+    pairs.map((p) => p.before),
+    pairs.map((p) => p.after),
+  );
   if (!reduction) return { lead: "No object was scored before and after.", tiles: [] };
   const mean = (side: "before" | "after") => pairs.reduce((sum, p) => sum + p[side], 0) / pairs.length;
   const lower = pairs.filter((p) => p.after < p.before).length;
@@ -57,8 +70,16 @@ function pairedHeadline(report: Report): { lead: string; tiles: Headline[] } {
   return {
     lead: `${count(pairs.length)} of ${count(report.objects.length)} objects scored before and after, under equal random draws.`,
     tiles: [
-      { value: percent(Math.abs(reduction.value), 1), half: known(reduction.half) ? `± ${fixed(100 * reduction.half, 1)}` : "", says: `${less ? "lower" : "higher"} mean graspability, 95 % interval` },
-      { value: `${milli(mean("before"))} → ${milli(mean("after"))}`, half: "", says: `mean graspability, ${MILLI_UNIT}` },
+      {
+        value: percent(Math.abs(reduction.value), 1),
+        half: known(reduction.half) ? `± ${fixed(100 * reduction.half, 1)}` : "",
+        says: `${less ? "lower" : "higher"} mean graspability, 95 % interval`,
+      },
+      {
+        value: `${milli(mean("before"))} → ${milli(mean("after"))}`,
+        half: "",
+        says: `mean graspability, ${MILLI_UNIT}`,
+      },
       { value: count(lower), half: `of ${count(pairs.length)}`, says: "objects became harder to grasp" },
     ],
   };
@@ -75,7 +96,11 @@ function objectsHeadline(report: Report): { lead: string; tiles: Headline[] } {
   return {
     lead,
     tiles: [
-      { value: milli(mean), half: n > 1 ? `± ${milli((1.96 * deviation) / Math.sqrt(n))}` : "", says: `mean graspability, ${MILLI_UNIT}, 95 % interval` },
+      {
+        value: milli(mean),
+        half: n > 1 ? `± ${milli((1.96 * deviation) / Math.sqrt(n))}` : "",
+        says: `mean graspability, ${MILLI_UNIT}, 95 % interval`,
+      },
       { value: milli(Math.min(...values)), half: "", says: `least graspable, ${MILLI_UNIT}` },
       { value: milli(Math.max(...values)), half: "", says: `most graspable, ${MILLI_UNIT}` },
     ],
@@ -83,14 +108,38 @@ function objectsHeadline(report: Report): { lead: string; tiles: Headline[] } {
 }
 
 function objectFigures(report: Report): (HTMLElement | null)[] {
-  const groups = report.groups.map((group, g) => ({ label: group.label, values: report.objects.filter((o) => o.group === g).map(graspability).filter(known).map((v) => 1000 * v) }));
-  const rows = groups.filter((g) => g.values.length).map((g) => ({ ...g, colour: COLOURS.run, mean: g.values.reduce((a, b) => a + b, 0) / g.values.length, other: [] }));
-  const histograms = rows.length ? figure({
-    title: "Distribution of graspability", caption: "Share of objects per bin; the line and the number are the mean.",
-    draw: (width) => stackedHistograms(rows, `graspability, ${MILLI_UNIT}`, width),
-    numbers: { header: ["", "objects", "10th percentile", "median", "90th percentile"], rows: rows.map((row) => [row.label, String(row.values.length), ...[0.1, 0.5, 0.9].map((q) => quantile(row.values, q))]) },
-    className: "wide",
-  }) : null;
+  const groups = report.groups.map((group, g) => ({
+    label: group.label,
+    values: report.objects
+      .filter((o) => o.group === g)
+      .map(graspability)
+      .filter(known)
+      .map((v) => 1000 * v),
+  }));
+  const rows = groups
+    .filter((g) => g.values.length)
+    .map((g) => ({
+      ...g,
+      colour: COLOURS.run,
+      mean: g.values.reduce((a, b) => a + b, 0) / g.values.length,
+      other: [],
+    }));
+  const histograms = rows.length
+    ? figure({
+        title: "Distribution of graspability",
+        caption: "Share of objects per bin; the line and the number are the mean.",
+        draw: (width) => stackedHistograms(rows, `graspability, ${MILLI_UNIT}`, width),
+        numbers: {
+          header: ["", "objects", "10th percentile", "median", "90th percentile"],
+          rows: rows.map((row) => [
+            row.label,
+            String(row.values.length),
+            ...[0.1, 0.5, 0.9].map((q) => quantile(row.values, q)),
+          ]),
+        },
+        className: "wide",
+      })
+    : null;
   return [histograms, objectTable(report)];
 }
 
@@ -98,17 +147,41 @@ function objectTable(report: Report): HTMLElement | null {
   if (!report.objects.length) return null;
   const paired = report.kind === "perturbed";
   const header = paired
-    ? ["object", "status", `before, ${MILLI_UNIT}`, `after, ${MILLI_UNIT}`, "change", "95 % interval after", "quality > 0", "grasps"]
-    : ["object", "status", `graspability, ${MILLI_UNIT}`, "95 % interval", `mean quality, ${MILLI_UNIT}`, "quality > 0", "grasps"];
+    ? [
+        "object",
+        "status",
+        `before, ${MILLI_UNIT}`,
+        `after, ${MILLI_UNIT}`,
+        "change",
+        "95 % interval after",
+        "quality > 0",
+        "grasps",
+      ]
+    : [
+        "object",
+        "status",
+        `graspability, ${MILLI_UNIT}`,
+        "95 % interval",
+        `mean quality, ${MILLI_UNIT}`,
+        "quality > 0",
+        "grasps",
+      ];
   const rows = report.objects.map((o) => {
-    const score = o.score, before = graspability(o.pair), after = graspability(o);
-    const interval = known(score?.ci_low) && known(score?.ci_high) ? `${milli(score!.ci_low)}–${milli(score!.ci_high)}` : NONE;
+    const score = o.score,
+      before = graspability(o.pair),
+      after = graspability(o);
+    const interval =
+      known(score?.ci_low) && known(score?.ci_high) ? `${milli(score!.ci_low)}–${milli(score!.ci_high)}` : NONE;
     const change = known(before) && known(after) && before > 0 ? percent(after / before - 1, 1) : NONE;
-    const middle = paired ? [milli(before, 3), milli(after, 3), change, interval] : [milli(after, 3), interval, milli(score?.mean, 3)];
+    const middle = paired
+      ? [milli(before, 3), milli(after, 3), change, interval]
+      : [milli(after, 3), interval, milli(score?.mean, 3)];
     return [o.name, o.status, ...middle, percent(score?.fraction_nonzero), count(score?.num_grasps)];
   });
   const element = table(header, rows, "Scores of all objects");
-  element.querySelectorAll("tbody th").forEach((cell, i) => cell.replaceChildren(h("a", { href: objectLink(i) }, report.objects[i].name)));
+  element
+    .querySelectorAll("tbody th")
+    .forEach((cell, i) => cell.replaceChildren(h("a", { href: objectLink(i) }, report.objects[i].name)));
   return h("section", { class: "figure wide" }, h("h2", {}, "Scores"), element);
 }
 
@@ -116,40 +189,77 @@ function provenance(report: Report): HTMLElement | null {
   const metric = report.metric;
   const rows: [string, string][] = [...report.provenance];
   if (metric) {
-    if (known(metric.percentile)) rows.push(["graspability", `${fixed(metric.percentile, 0)}th percentile of robust quality`]);
-    if (known(metric.num_grasps)) rows.push(["grasps per object", `${count(metric.num_grasps)}, ${count(metric.num_draws)} draws each`]);
+    if (known(metric.percentile))
+      rows.push(["graspability", `${fixed(metric.percentile, 0)}th percentile of robust quality`]);
+    if (known(metric.num_grasps))
+      rows.push(["grasps per object", `${count(metric.num_grasps)}, ${count(metric.num_draws)} draws each`]);
     if (known(metric.friction)) rows.push(["friction coefficient", plusMinus(metric.friction, null, 2)]);
     if (metric.noise) rows.push(["noise", metric.noise]);
   }
   if (!rows.length && report.config === null) return null;
-  return h("section", { class: "figure wide" }, h("h2", {}, "Provenance"),
+  return h(
+    "section",
+    { class: "figure wide" },
+    h("h2", {}, "Provenance"),
     h("dl", { class: "facts" }, ...rows.map(([label, value]) => h("div", {}, h("dt", {}, label), h("dd", {}, value)))),
-    report.config !== null ? details("Configuration", h("pre", { tabindex: 0, "aria-label": "Configuration" }, report.config)) : null);
+    report.config !== null
+      ? details("Configuration", h("pre", { tabindex: 0, "aria-label": "Configuration" }, report.config))
+      : null,
+  );
 }
 
 function missingNotice(report: Report): HTMLElement | null {
   const sentences = [...report.missing];
-  if (report.kind === "run" && !report.run?.stages.length && !sentences.length) sentences.push("This run holds no stage yet: nothing has been trained or scored.");
+  if (report.kind === "run" && !report.run?.stages.length && !sentences.length)
+    sentences.push("This run holds no stage yet: nothing has been trained or scored.");
   if (!report.objects.length && !sentences.length) sentences.push("This report holds no objects.");
   if (!sentences.length) return null;
-  return h("section", { class: "notice", "aria-label": "What is missing" }, h("h2", {}, "Not there"), h("ul", {}, ...sentences.map((text) => h("li", {}, text))));
+  return h(
+    "section",
+    { class: "notice", "aria-label": "What is missing" },
+    h("h2", {}, "Not there"),
+    h("ul", {}, ...sentences.map((text) => h("li", {}, text))),
+  );
 }
 
 export function overviewPage(report: Report): Page {
-  const { lead, tiles } = report.kind === "run" && report.run ? runHeadline(report) : report.kind === "perturbed" ? pairedHeadline(report) : objectsHeadline(report);
+  const { lead, tiles } =
+    report.kind === "run" && report.run
+      ? runHeadline(report)
+      : report.kind === "perturbed"
+        ? pairedHeadline(report)
+        : objectsHeadline(report);
   const stages = report.run?.stages ?? [];
   const losses = report.run?.losses ?? [];
   const pairs = pairPoints(report.objects);
   const examples = exampleFigure(report);
-  const figures = report.kind === "run"
-    ? [kappaFigure(stages), stageHistograms(stages), varietyFigure(stages), rejectionFigure(stages), lossFigure(losses)]
-    : report.kind === "perturbed"
-      ? [pairedHistograms(pairs), pairedScatter(pairs), objectTable(report)]
-      : objectFigures(report);
-  const toGallery = report.objects.length ? h("a", { href: "#/gallery", class: "button" }, `See all ${count(report.objects.length)} objects`) : null;
-  const element = h("main", { class: "overview" },
-    h("div", { class: "page-head with-button" }, h("div", {}, h("h1", { tabindex: -1 }, report.title || "Report"), h("p", { class: "lead" }, lead)), toGallery),
-    headlineTiles(tiles), missingNotice(report),
-    h("div", { class: "figures" }, examples?.element, ...figures, provenance(report)));
+  const figures =
+    report.kind === "run"
+      ? [
+          kappaFigure(stages),
+          stageHistograms(stages),
+          varietyFigure(stages),
+          rejectionFigure(stages),
+          lossFigure(losses),
+        ]
+      : report.kind === "perturbed"
+        ? [pairedHistograms(pairs), pairedScatter(pairs), objectTable(report)]
+        : objectFigures(report);
+  const toGallery = report.objects.length
+    ? h("a", { href: "#/gallery", class: "button" }, `See all ${count(report.objects.length)} objects`)
+    : null;
+  const element = h(
+    "main",
+    { class: "overview" },
+    h(
+      "div",
+      { class: "page-head with-button" },
+      h("div", {}, h("h1", { tabindex: -1 }, report.title || "Report"), h("p", { class: "lead" }, lead)),
+      toGallery,
+    ),
+    headlineTiles(tiles),
+    missingNotice(report),
+    h("div", { class: "figures" }, examples?.element, ...figures, provenance(report)),
+  );
   return { title: "", element, mounted: examples?.mounted, dispose: examples?.dispose };
 }

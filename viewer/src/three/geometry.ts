@@ -17,10 +17,18 @@ function faceNormals(mesh: Mesh): { unit: Float32Array; area: Float32Array } {
   const unit = new Float32Array(faces * 3);
   const area = new Float32Array(faces);
   for (let f = 0; f < faces; ++f) {
-    const a = 3 * indices[3 * f], b = 3 * indices[3 * f + 1], c = 3 * indices[3 * f + 2];
-    const ux = p[b] - p[a], uy = p[b + 1] - p[a + 1], uz = p[b + 2] - p[a + 2];
-    const vx = p[c] - p[a], vy = p[c + 1] - p[a + 1], vz = p[c + 2] - p[a + 2];
-    const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    const a = 3 * indices[3 * f],
+      b = 3 * indices[3 * f + 1],
+      c = 3 * indices[3 * f + 2];
+    const ux = p[b] - p[a],
+      uy = p[b + 1] - p[a + 1],
+      uz = p[b + 2] - p[a + 2];
+    const vx = p[c] - p[a],
+      vy = p[c + 1] - p[a + 1],
+      vz = p[c + 2] - p[a + 2];
+    const nx = uy * vz - uz * vy,
+      ny = uz * vx - ux * vz,
+      nz = ux * vy - uy * vx;
     const length = Math.hypot(nx, ny, nz);
     area[f] = length;
     const scale = length > 0 ? 1 / length : 0;
@@ -59,10 +67,13 @@ export function shade(mesh: Mesh): Shaded {
     const firstCopy = source.length;
     for (let i = start[v]; i < start[v + 1]; ++i) {
       const f = Math.floor(corners[i] / 3);
-      let nx = 0, ny = 0, nz = 0;
+      let nx = 0,
+        ny = 0,
+        nz = 0;
       for (let j = start[v]; j < start[v + 1]; ++j) {
         const g = Math.floor(corners[j] / 3);
-        const cosine = unit[3 * f] * unit[3 * g] + unit[3 * f + 1] * unit[3 * g + 1] + unit[3 * f + 2] * unit[3 * g + 2];
+        const cosine =
+          unit[3 * f] * unit[3 * g] + unit[3 * f + 1] * unit[3 * g + 1] + unit[3 * f + 2] * unit[3 * g + 2];
         if (g !== f && cosine < limit) continue;
         nx += area[g] * unit[3 * g];
         ny += area[g] * unit[3 * g + 1];
@@ -73,7 +84,11 @@ export function shade(mesh: Mesh): Shaded {
       ny *= scale;
       nz *= scale;
       let copy = firstCopy;
-      while (copy < source.length && nx * normals[3 * copy] + ny * normals[3 * copy + 1] + nz * normals[3 * copy + 2] < 0.9999) ++copy;
+      while (
+        copy < source.length &&
+        nx * normals[3 * copy] + ny * normals[3 * copy + 1] + nz * normals[3 * copy + 2] < 0.9999
+      )
+        ++copy;
       if (copy === source.length) {
         source.push(v);
         positions.push(mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]);

@@ -1,4 +1,20 @@
-import { Color, ConeGeometry, CylinderGeometry, type BufferGeometry, DoubleSide, Group, InstancedMesh, type Material, Matrix4, MeshBasicMaterial, MeshStandardMaterial, Quaternion, type Raycaster, SphereGeometry, Vector3 } from "three";
+import {
+  Color,
+  ConeGeometry,
+  CylinderGeometry,
+  type BufferGeometry,
+  DoubleSide,
+  Group,
+  InstancedMesh,
+  type Material,
+  Matrix4,
+  MeshBasicMaterial,
+  MeshStandardMaterial,
+  Quaternion,
+  type Raycaster,
+  SphereGeometry,
+  Vector3,
+} from "three";
 import { qualityColour } from "../colours";
 import type { Grasp } from "../data/grasps";
 
@@ -17,7 +33,11 @@ export interface MarkScale {
 }
 
 function stretched(origin: Vector3, direction: Vector3, radius: number, length: number): Matrix4 {
-  return new Matrix4().compose(origin, new Quaternion().setFromUnitVectors(UP, direction), new Vector3(radius, length, radius));
+  return new Matrix4().compose(
+    origin,
+    new Quaternion().setFromUnitVectors(UP, direction),
+    new Vector3(radius, length, radius),
+  );
 }
 
 /** Axes, contacts and friction cones of the first `count` grasps. */
@@ -25,7 +45,10 @@ export class GraspMarks {
   readonly group = new Group();
   private axes: InstancedMesh | null = null;
 
-  constructor(private readonly grasps: Grasp[], private readonly scale: MarkScale) {}
+  constructor(
+    private readonly grasps: Grasp[],
+    private readonly scale: MarkScale,
+  ) {}
 
   /** Shows the best `count`; `chosen` is drawn thicker and with its cones, the others' cones only when asked for. */
   show(count: number, chosen: number, allCones: boolean): void {
@@ -42,11 +65,22 @@ export class GraspMarks {
       return [stretched(middle, axis.normalize(), extent * (isChosen ? 0.011 : 0.0055), length)];
     });
     this.add(SPHERE, new MeshStandardMaterial({ roughness: 0.4 }), shown, (g, isChosen) =>
-      [g.p1, g.p2].map((p) => new Matrix4().makeScale(...ball(extent * (isChosen ? 0.019 : 0.012))).setPosition(...p)));
+      [g.p1, g.p2].map((p) => new Matrix4().makeScale(...ball(extent * (isChosen ? 0.019 : 0.012))).setPosition(...p)),
+    );
     const cones = shown.filter((s) => allCones || s.chosen);
     const length = 0.16 * extent;
-    this.add(CONE, new MeshBasicMaterial({ transparent: true, opacity: 0.38, side: DoubleSide, depthWrite: false }), cones, (g) =>
-      [[g.p1, g.n1], [g.p2, g.n2]].map(([p, n]) => stretched(new Vector3(...p), new Vector3(...n).normalize(), length * this.scale.friction, length)));
+    this.add(
+      CONE,
+      new MeshBasicMaterial({ transparent: true, opacity: 0.38, side: DoubleSide, depthWrite: false }),
+      cones,
+      (g) =>
+        [
+          [g.p1, g.n1],
+          [g.p2, g.n2],
+        ].map(([p, n]) =>
+          stretched(new Vector3(...p), new Vector3(...n).normalize(), length * this.scale.friction, length),
+        ),
+    );
   }
 
   /** Rank of the grasp whose axis the ray hits first, null: none. */
@@ -64,7 +98,12 @@ export class GraspMarks {
     this.axes = null;
   }
 
-  private add(geometry: BufferGeometry, material: Material, marks: { grasp: Grasp; chosen: boolean }[], place: (grasp: Grasp, chosen: boolean) => Matrix4[]): InstancedMesh {
+  private add(
+    geometry: BufferGeometry,
+    material: Material,
+    marks: { grasp: Grasp; chosen: boolean }[],
+    place: (grasp: Grasp, chosen: boolean) => Matrix4[],
+  ): InstancedMesh {
     const placed = marks.flatMap(({ grasp, chosen }) => place(grasp, chosen).map((matrix) => ({ matrix, grasp })));
     const mesh = new InstancedMesh(geometry, material, placed.length);
     placed.forEach(({ matrix, grasp }, i) => {

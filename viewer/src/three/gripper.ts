@@ -1,9 +1,20 @@
-import { BoxGeometry, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshStandardMaterial, Vector3 } from "three";
+import {
+  BoxGeometry,
+  EdgesGeometry,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
+  Mesh,
+  MeshStandardMaterial,
+  Vector3,
+} from "three";
 import type { Grasp } from "../data/grasps";
 import type { Gripper } from "../data/report";
 
 // Seen through, because a gripper hides most of what it holds; edges keep its shape readable.
-const glass = (opacity: number) => new MeshStandardMaterial({ color: 0x6f8296, roughness: 0.6, transparent: true, opacity, depthWrite: false });
+const glass = (opacity: number) =>
+  new MeshStandardMaterial({ color: 0x6f8296, roughness: 0.6, transparent: true, opacity, depthWrite: false });
 const FINGERS = glass(0.55);
 const PALM = glass(0.22);
 const EDGES = new LineBasicMaterial({ color: 0x5b6c7d, transparent: true, opacity: 0.9 });
@@ -23,17 +34,23 @@ function box(x: [number, number], y: [number, number], z: [number, number], mate
 export function gripperOn(grasp: Grasp, gripper: Gripper, metresPerUnit: number): Group | null {
   if (!grasp.approach || !(metresPerUnit > 0)) return null;
   const g = gripper;
-  const w = grasp.width * metresPerUnit / 2;
+  const w = (grasp.width * metresPerUnit) / 2;
   const group = new Group();
   const reach: [number, number] = [-g.palm_distance, g.fingertip_overlap];
   const across: [number, number] = [-g.finger_width / 2, g.finger_width / 2];
   group.add(
     box(reach, [w, w + g.finger_thickness], across, FINGERS),
     box(reach, [-w - g.finger_thickness, -w], across, FINGERS),
-    box([-g.palm_distance - g.palm_depth, -g.palm_distance], [-g.palm_length / 2, g.palm_length / 2], [-g.palm_width / 2, g.palm_width / 2], PALM),
+    box(
+      [-g.palm_distance - g.palm_depth, -g.palm_distance],
+      [-g.palm_length / 2, g.palm_length / 2],
+      [-g.palm_width / 2, g.palm_width / 2],
+      PALM,
+    ),
   );
   const x = new Vector3(...grasp.approach).normalize();
-  const p1 = new Vector3(...grasp.p1), p2 = new Vector3(...grasp.p2);
+  const p1 = new Vector3(...grasp.p1),
+    p2 = new Vector3(...grasp.p2);
   const y = p2.clone().sub(p1);
   y.addScaledVector(x, -y.dot(x)).normalize(); // the stored approach is perpendicular up to rounding
   const frame = new Matrix4().makeBasis(x, y, x.clone().cross(y)).setPosition(p1.add(p2).multiplyScalar(0.5));

@@ -1,4 +1,19 @@
-import { BufferAttribute, BufferGeometry, Color, DoubleSide, type Group, LineBasicMaterial, LineSegments, Mesh as ThreeMesh, MeshBasicMaterial, MeshStandardMaterial, type PerspectiveCamera, PlaneGeometry, Raycaster, Vector2 } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DoubleSide,
+  type Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh as ThreeMesh,
+  MeshBasicMaterial,
+  MeshStandardMaterial,
+  type PerspectiveCamera,
+  PlaneGeometry,
+  Raycaster,
+  Vector2,
+} from "three";
 import { heatRgb } from "../colours";
 import { bytesOf } from "../data/blob";
 import type { Grasp } from "../data/grasps";
@@ -28,12 +43,15 @@ export class ObjectPanel implements View {
     readonly shape: Shape,
     readonly mesh: Mesh,
     readonly grasps: Grasp[],
-    extent: number,
     scale: MarkScale,
   ) {
+    const { extent } = scale;
     this.shaded = shade(mesh);
     this.marks = new GraspMarks(grasps, scale);
-    this.plane = new ThreeMesh(new PlaneGeometry(1.3 * extent, 1.3 * extent), new MeshBasicMaterial({ transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false }));
+    this.plane = new ThreeMesh(
+      new PlaneGeometry(1.3 * extent, 1.3 * extent),
+      new MeshBasicMaterial({ transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false }),
+    );
     this.plane.visible = this.cut.visible = false;
     this.cut.renderOrder = 2;
     this.scene.add(new ThreeMesh(this.shaded.geometry, this.material), this.marks.group, this.plane, this.cut);
@@ -112,7 +130,10 @@ export class ObjectPanel implements View {
     const box = this.element.getBoundingClientRect();
     const ray = new Raycaster();
     this.prepare(box.width, box.height);
-    ray.setFromCamera(new Vector2(2 * (clientX - box.left) / box.width - 1, 1 - 2 * (clientY - box.top) / box.height), this.camera);
+    ray.setFromCamera(
+      new Vector2((2 * (clientX - box.left)) / box.width - 1, 1 - (2 * (clientY - box.top)) / box.height),
+      this.camera,
+    );
     return this.marks.pick(ray);
   }
 

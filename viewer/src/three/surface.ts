@@ -58,13 +58,23 @@ export class Surface {
   }
 
   /** null without WebGL. `place` moves the canvas and says how large it is, CSS pixels; left out: it fills the host. */
-  static over(host: HTMLElement, views: () => Iterable<View>, place?: (canvas: HTMLCanvasElement) => { width: number; height: number }): Surface | null {
+  static over(
+    host: HTMLElement,
+    views: () => Iterable<View>,
+    place?: (canvas: HTMLCanvasElement) => { width: number; height: number },
+  ): Surface | null {
     const shared = sharedRenderer();
     if (!shared) return null;
-    return new Surface(shared, host, views, place ?? ((canvas) => {
-      canvas.style.transform = "";
-      return { width: host.clientWidth, height: host.clientHeight };
-    }));
+    return new Surface(
+      shared,
+      host,
+      views,
+      place ??
+        ((canvas) => {
+          canvas.style.transform = "";
+          return { width: host.clientWidth, height: host.clientHeight };
+        }),
+    );
   }
 
   invalidate(): void {
@@ -81,7 +91,8 @@ export class Surface {
     const { width, height } = this.place(this.canvas);
     if (width === 0 || height === 0) return;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
-    const w = Math.round(width * ratio), hgt = Math.round(height * ratio);
+    const w = Math.round(width * ratio),
+      hgt = Math.round(height * ratio);
     if (this.canvas.width !== w || this.canvas.height !== hgt) {
       this.renderer.setPixelRatio(ratio);
       this.renderer.setSize(width, height);

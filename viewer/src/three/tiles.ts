@@ -1,4 +1,11 @@
-import { type BufferGeometry, Group, Mesh as ThreeMesh, MeshStandardMaterial, PerspectiveCamera, DoubleSide } from "three";
+import {
+  type BufferGeometry,
+  Group,
+  Mesh as ThreeMesh,
+  MeshStandardMaterial,
+  PerspectiveCamera,
+  DoubleSide,
+} from "three";
 import { meshOf } from "../data/mesh";
 import type { Shape } from "../data/report";
 import { shade } from "./geometry";
@@ -13,7 +20,9 @@ export interface Turn {
 const START: Turn = { yaw: -0.55, pitch: 0 };
 // Time for decoding per frame: little, so that scrolling stays fluid while objects arrive; more where drawing itself is
 // slow (no GPU), or the last object would come late.
-const DECODE_MS = 10, MOST_DECODE_MS = 150, FIRST_DECODE_MS = 80;
+const DECODE_MS = 10,
+  MOST_DECODE_MS = 150,
+  FIRST_DECODE_MS = 80;
 const KEEP_GEOMETRIES = 200;
 const MARGIN = 240; // how far the canvas reaches beyond the window, so that scrolling finds it drawn
 
@@ -39,7 +48,11 @@ export class TilePictures {
   private waiting = false;
   readonly surface: Surface | null;
 
-  constructor(private readonly host: HTMLElement, private readonly shapes: Shape[], private readonly whole = false) {
+  constructor(
+    private readonly host: HTMLElement,
+    private readonly shapes: Shape[],
+    private readonly whole = false,
+  ) {
     this.camera.up.set(0, 0, 1);
     this.camera.position.set(0, -4.1, 1.75);
     this.camera.lookAt(0, 0, 0);
@@ -48,14 +61,21 @@ export class TilePictures {
     this.pivot.add(this.body);
     this.lit.scene.add(this.pivot);
     this.restyle();
-    this.observer = new IntersectionObserver((entries) => {
-      for (const { target, isIntersecting } of entries) {
-        if (isIntersecting) this.visible.set(target, Number((target as HTMLElement).dataset.object));
-        else this.visible.delete(target);
-      }
-      this.invalidate();
-    }, { rootMargin: `${MARGIN}px 0px` });
-    this.surface = Surface.over(host, () => this.views(), (canvas) => this.place(canvas));
+    this.observer = new IntersectionObserver(
+      (entries) => {
+        for (const { target, isIntersecting } of entries) {
+          if (isIntersecting) this.visible.set(target, Number((target as HTMLElement).dataset.object));
+          else this.visible.delete(target);
+        }
+        this.invalidate();
+      },
+      { rootMargin: `${MARGIN}px 0px` },
+    );
+    this.surface = Surface.over(
+      host,
+      () => this.views(),
+      (canvas) => this.place(canvas),
+    );
   }
 
   restyle(): void {
@@ -109,12 +129,16 @@ export class TilePictures {
   // would be larger than browsers allow.
   private place(canvas: HTMLCanvasElement): { width: number; height: number } {
     const box = this.host.getBoundingClientRect();
-    const height = this.whole ? this.host.clientHeight : Math.min(this.host.clientHeight, window.innerHeight + 2 * MARGIN);
+    const height = this.whole
+      ? this.host.clientHeight
+      : Math.min(this.host.clientHeight, window.innerHeight + 2 * MARGIN);
     const top = Math.round(Math.min(Math.max(0, -box.top - MARGIN), this.host.clientHeight - height));
     canvas.style.transform = `translateY(${top}px)`;
     const now = performance.now();
     const interval = this.waiting ? now - this.lastFrame : 0;
-    this.deadline = now + Math.min(MOST_DECODE_MS, Math.max(this.fresh && this.visible.size ? FIRST_DECODE_MS : DECODE_MS, 0.6 * interval));
+    this.deadline =
+      now +
+      Math.min(MOST_DECODE_MS, Math.max(this.fresh && this.visible.size ? FIRST_DECODE_MS : DECODE_MS, 0.6 * interval));
     if (this.visible.size) this.fresh = false;
     this.lastFrame = now;
     this.waiting = false;
@@ -125,7 +149,12 @@ export class TilePictures {
     for (const [element, object] of this.visible) {
       const geometry = this.geometry(object);
       if (!geometry) continue;
-      yield { element: element as HTMLElement, scene: this.lit.scene, camera: this.camera, prepare: (width, height) => this.pose(object, geometry, width / height) };
+      yield {
+        element: element as HTMLElement,
+        scene: this.lit.scene,
+        camera: this.camera,
+        prepare: (width, height) => this.pose(object, geometry, width / height),
+      };
     }
     if (this.waiting) this.invalidate();
   }

@@ -24,18 +24,38 @@ export function writeReport(name, html) {
  * A page on a report, with what went wrong: console errors, exceptions, refused or attempted requests. Every test ends
  * with expectQuiet().
  */
-export async function open(browser, path, { hash = "#/", width = 960, height = 640, scheme = "light", webgl = true } = {}) {
-  const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, reducedMotion: "reduce", acceptDownloads: true });
-  const page = await context.newPage();
-  const trouble = [], requests = [];
-  page.on("console", (m) => { if (m.type() === "error" || m.type() === "warning") trouble.push(`${m.type()}: ${m.text()}`); });
-  page.on("pageerror", (e) => trouble.push(`exception: ${e.message}`));
-  page.on("dialog", (d) => { trouble.push(`dialog: ${d.message()}`); d.dismiss(); });
-  page.on("request", (r) => { if (!r.url().startsWith("data:") && !r.url().startsWith("blob:")) requests.push(r.url()); });
-  if (!webgl) await page.addInitScript(() => {
-    const get = HTMLCanvasElement.prototype.getContext;
-    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return /webgl/.test(kind) ? null : get.call(this, kind, ...rest); };
+export async function open(
+  browser,
+  path,
+  { hash = "#/", width = 960, height = 640, scheme = "light", webgl = true } = {},
+) {
+  const context = await browser.newContext({
+    viewport: { width, height },
+    colorScheme: scheme,
+    reducedMotion: "reduce",
+    acceptDownloads: true,
   });
+  const page = await context.newPage();
+  const trouble = [],
+    requests = [];
+  page.on("console", (m) => {
+    if (m.type() === "error" || m.type() === "warning") trouble.push(`${m.type()}: ${m.text()}`);
+  });
+  page.on("pageerror", (e) => trouble.push(`exception: ${e.message}`));
+  page.on("dialog", (d) => {
+    trouble.push(`dialog: ${d.message()}`);
+    d.dismiss();
+  });
+  page.on("request", (r) => {
+    if (!r.url().startsWith("data:") && !r.url().startsWith("blob:")) requests.push(r.url());
+  });
+  if (!webgl)
+    await page.addInitScript(() => {
+      const get = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        return /webgl/.test(kind) ? null : get.call(this, kind, ...rest);
+      };
+    });
   const address = pathToFileURL(path).href;
   await page.goto(address + hash);
   page.trouble = trouble;
@@ -69,11 +89,15 @@ export function settled(page) {
 
 /** Goes to a page of the report and waits until it is there. */
 export async function go(page, hash) {
-  await page.evaluate((to) => new Promise((resolve) => {
-    if (location.hash === to) return resolve();
-    window.addEventListener("hashchange", () => resolve(), { once: true }); // the page's own listener came first
-    location.hash = to;
-  }), hash);
+  await page.evaluate(
+    (to) =>
+      new Promise((resolve) => {
+        if (location.hash === to) return resolve();
+        window.addEventListener("hashchange", () => resolve(), { once: true }); // the page's own listener came first
+        location.hash = to;
+      }),
+    hash,
+  );
 }
 
 /** Waits for the page of an object, or any other, by its heading. */
@@ -110,12 +134,17 @@ export function poorContrast(page, least = 4.5) {
       const own = rgba(getComputedStyle(element).backgroundColor);
       return own[3] > 0.99 ? own : over(own, background(element.parentElement));
     };
-    const luminance = (c) => [0.2126, 0.7152, 0.0722].reduce((sum, w, k) => sum + w * (c[k] <= 0.04045 ? c[k] / 12.92 : ((c[k] + 0.055) / 1.055) ** 2.4), 0);
+    const luminance = (c) =>
+      [0.2126, 0.7152, 0.0722].reduce(
+        (sum, w, k) => sum + w * (c[k] <= 0.04045 ? c[k] / 12.92 : ((c[k] + 0.055) / 1.055) ** 2.4),
+        0,
+      );
     const poor = [];
     const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
     for (let node = walker.nextNode(); node; node = walker.nextNode()) {
       const element = node.parentElement;
-      if (!node.data.trim() || !element.checkVisibility() || element.closest("script,noscript,title,option,.hidden")) continue;
+      if (!node.data.trim() || !element.checkVisibility() || element.closest("script,noscript,title,option,.hidden"))
+        continue;
       const style = getComputedStyle(element);
       const svg = element instanceof SVGElement;
       const colour = rgba(svg ? style.fill : style.color);

@@ -9,7 +9,10 @@ const SMOKE = fileURLToPath(new URL("../../../configs/smoke.toml", import.meta.u
 
 async function antigrasp(...args) {
   const binary = process.env.ANTIGRASP_BINARY;
-  if (!binary) throw new Error("ANTIGRASP_BINARY: expected the path of the built binary, for example ../build/release/bin/antigrasp");
+  if (!binary)
+    throw new Error(
+      "ANTIGRASP_BINARY: expected the path of the built binary, for example ../build/release/bin/antigrasp",
+    );
   await promisify(execFile)(binary, args, { cwd: folder, maxBuffer: 1 << 26 });
 }
 

@@ -2,7 +2,8 @@
 import { inflateSync } from "node:zlib";
 
 export function decodePng(buffer) {
-  const width = buffer.readUInt32BE(16), height = buffer.readUInt32BE(20);
+  const width = buffer.readUInt32BE(16),
+    height = buffer.readUInt32BE(20);
   const channels = { 2: 3, 6: 4 }[buffer[25]];
   if (buffer[24] !== 8 || !channels || buffer[28] !== 0) throw new Error("unexpected kind of PNG");
   const parts = [];
@@ -20,7 +21,8 @@ export function decodePng(buffer) {
       const left = x >= channels ? data[y * stride + x - channels] : 0;
       const up = y > 0 ? data[(y - 1) * stride + x] : 0;
       const corner = x >= channels && y > 0 ? data[(y - 1) * stride + x - channels] : 0;
-      data[y * stride + x] = raw[y * (stride + 1) + 1 + x] + [0, left, up, (left + up) >> 1, paeth(left, up, corner)][filter];
+      data[y * stride + x] =
+        raw[y * (stride + 1) + 1 + x] + [0, left, up, (left + up) >> 1, paeth(left, up, corner)][filter];
     }
   }
   return { width, height, channels, data };
@@ -34,7 +36,8 @@ function paeth(left, up, corner) {
 
 /** Share of pixels that differ by more than a little in some channel; 1 when the sizes differ. */
 export function difference(a, b) {
-  const x = decodePng(a), y = decodePng(b);
+  const x = decodePng(a),
+    y = decodePng(b);
   if (x.width !== y.width || x.height !== y.height || x.channels !== y.channels) return 1;
   let changed = 0;
   for (let i = 0; i < x.data.length; i += x.channels) {
@@ -47,6 +50,7 @@ export function difference(a, b) {
 export function ink(png) {
   const { data, channels, width, height } = decodePng(png);
   let count = 0;
-  for (let i = 0; i < data.length; i += channels) if ([0, 1, 2].some((k) => Math.abs(data[i + k] - data[k]) > 12)) ++count;
+  for (let i = 0; i < data.length; i += channels)
+    if ([0, 1, 2].some((k) => Math.abs(data[i + k] - data[k]) > 12)) ++count;
   return count / (width * height);
 }
