@@ -1,6 +1,5 @@
 // Training and sampling against the same networks written the plain way (plain_gan.h) and against
 // PyTorch (training_peer.py), in one run: `ratio NAME VALUE`, above 1 = times as fast as the other.
-#include <ATen/Parallel.h>
 #include <malloc.h>
 #include <torch/torch.h>
 
@@ -15,6 +14,7 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/models/random_tensor.h"
 #include "antigrasp/train/gan_trainer.h"
+#include "antigrasp/train/torch_threads.h"
 #include "bench/arithmetic.h"
 #include "bench/peer_process.h"
 #include "bench/plain_gan.h"
@@ -92,7 +92,7 @@ std::unique_ptr<PeerProcess> PythonPeer(const ModelOptions& model, int threads) 
 }
 
 void CompareSteps(int width, int pack, int threads) {
-  at::set_num_threads(threads);
+  SetTorchThreads(threads);
   const ModelOptions model = Model(width, pack);
   const std::string name = "_width" + std::to_string(width) +
                            (pack > 1 ? "_pack" + std::to_string(pack) : "") + "_threads" +
@@ -137,7 +137,7 @@ void CompareSteps() {
 // A resampling step draws 2,500 grids. The plain way draws them in the same batches.
 void CompareSampling(int width, int threads) {
   constexpr std::int64_t kCount = 2500;
-  at::set_num_threads(threads);
+  SetTorchThreads(threads);
   const auto ours = MakeTrainer(Model(width, 1), kBatch);
   PlainGenerator plain(Model(width, 1));
   plain->eval();

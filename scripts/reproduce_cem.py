@@ -61,7 +61,7 @@ def curves(path, folders):
 
 def refresh(way, folder):
     for episode in {0, EPISODES // 2, max(rows_of(folder))}:
-        compare(folder, episode, KIND, folder.parent)
+        compare(folder, episode, KIND, folder.parent, copies=True)
     keep(folder, results_of(way))
 
 

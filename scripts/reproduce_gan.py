@@ -110,9 +110,9 @@ def pretrained(runs):
 
 def refresh(run, folder, out):
     """Measures what a run has sampled and keeps the numbers and pictures of it."""
-    for where in (folder, folder / "control"):
-        for episode in sorted(e for e in rows_of(where) if e >= 0):
-            compare(where, episode, run.kind, out)
+    for episode in sorted(e for e in rows_of(folder) if e >= 0):
+        compare(folder, episode, run.kind, out)
+    compare(folder / "control", run.episodes, run.kind, out)
     keep(folder, RESULTS / "gan" / run.name)
     histograms(IMAGES / f"gan_{run.name}_histograms.png", run, folder)
     picture(IMAGES / f"gan_{run.name}.png", run, folder, out)

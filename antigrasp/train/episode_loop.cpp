@@ -1,6 +1,5 @@
 #include "antigrasp/train/episode_loop.h"
 
-#include <dlfcn.h>
 #include <spdlog/spdlog.h>
 #include <torch/torch.h>
 
@@ -16,6 +15,7 @@
 #include "antigrasp/train/run_output.h"
 #include "antigrasp/train/scalar_log.h"
 #include "antigrasp/train/selection.h"
+#include "antigrasp/train/torch_threads.h"
 
 namespace antigrasp {
 namespace {
@@ -272,21 +272,9 @@ std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolde
   return EpisodeLoop(config, folder, observer).Run();
 }
 
-namespace {
-
-// LibTorch sets no thread count of OpenBLAS, whose threads then spin through every small product on
-// a core of their own: 8 % more processor time of a run on one thread, and no second less.
-void UseOneBlasThread() {
-  void* const set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads");  // absent with another BLAS
-  if (set != nullptr) reinterpret_cast<void (*)(int)>(set)(1);
-}
-
-}  // namespace
-
 GanTrainer MakeTrainer(const RunConfig& config) {
-  UseOneBlasThread();
   const int threads = config.torch_threads > 0 ? config.torch_threads : config.threads;
-  at::set_num_threads(threads > 0 ? threads : HardwareThreads());
+  SetTorchThreads(threads > 0 ? threads : HardwareThreads());
   const std::string expected = "a device this LibTorch offers: cpu" +
                                std::string(torch::cuda::is_available() ? ", cuda" : " only");
   try {

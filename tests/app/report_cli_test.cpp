@@ -188,7 +188,8 @@ TEST(ReportCli, ShowsARunWithItsChartsAndTheObjectsItScored) {
                             : run + "/episode_" + std::to_string(group - 1) + "/scores.csv");
     EXPECT_EQ(object["score"]["graspability"], scores.at(sample)) << group << " " << sample;
     EXPECT_FALSE(object["mesh"].is_null());
-    if (group == 0) EXPECT_TRUE(object["name"].get<std::string>().starts_with("cylinders-"));
+    const bool of_prior = object["name"].get<std::string>().starts_with("cylinders-");
+    EXPECT_EQ(of_prior, group == 0) << object["name"];
     elites += object.value("elite", false) ? 1 : 0;
     EXPECT_EQ(object.contains("elite"), group > 0);
     for (const auto& [name, score] : scores) {
