@@ -143,6 +143,7 @@ describe("missing numbers and stages", () => {
     });
     const page = await open(browser, writeReport("gaps.html", fill(TEMPLATE, report)));
     const kappa = page.locator(".figure", { has: page.getByRole("heading", { name: "κ per episode" }) });
+    await kappa.locator("svg").waitFor();
     const points = await kappa.locator("svg circle").count();
     assert.equal(points, 3, "prior set, episodes 0 and 3");
     const line = await kappa.locator("svg g[aria-label=line] path").last().getAttribute("d");

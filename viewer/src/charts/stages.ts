@@ -85,7 +85,7 @@ export function varietyFigure(stages: Stage[]): HTMLElement | null {
         const chart = Plot.plot({
           width: each,
           height: 150,
-          marginLeft: 38,
+          marginLeft: 46,
           marginRight: 10,
           marginBottom: 30,
           marginTop: 8,
@@ -167,7 +167,7 @@ export function rejectionFigure(stages: Stage[]): HTMLElement | null {
       Plot.plot({
         width,
         height: counted.length * 26 + 50,
-        marginLeft: 84,
+        marginLeft: 124,
         marginRight: 20,
         marginBottom: 40,
         marginTop: 6,
@@ -181,7 +181,7 @@ export function rejectionFigure(stages: Stage[]): HTMLElement | null {
           grid: true,
           ticks: 5,
         },
-        y: { domain: counted.map((s) => s.label), label: null, padding: 0.3, tickFormat: (t: string) => short(t, 11) },
+        y: { domain: counted.map((s) => s.label), label: null, padding: 0.3, tickFormat: (t: string) => short(t, 18) },
         marks: [
           Plot.barX(bars, {
             y: "stage",

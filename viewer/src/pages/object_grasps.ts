@@ -51,7 +51,7 @@ function describe(panel: ObjectPanel, rank: number): string {
   const grasp = panel.grasps[rank];
   if (!grasp) return NONE;
   const width = grasp.width * panel.shape.metres_per_unit * 1000;
-  return `quality ${milli(grasp.quality)}\u00a0${MILLI_UNIT}, width ${fixed(width, 1)} mm${grasp.approach ? "" : ", approach unknown"}`;
+  return `quality ${milli(grasp.quality)}\u00a0${MILLI_UNIT}, width ${fixed(width, 1)}\u00a0mm${grasp.approach ? "" : ", approach unknown"}`;
 }
 
 /** Sliders and ticks for the grasps of all panels; null when there are no grasps. */

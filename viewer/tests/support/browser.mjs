@@ -27,7 +27,7 @@ export function writeReport(name, html) {
 export async function open(
   browser,
   path,
-  { hash = "#/", width = 960, height = 640, scheme = "light", webgl = true } = {},
+  { hash = "#/", width = 820, height = 620, scheme = "light", webgl = true } = {},
 ) {
   const context = await browser.newContext({
     viewport: { width, height },
@@ -35,6 +35,7 @@ export async function open(
     reducedMotion: "reduce",
     acceptDownloads: true,
   });
+  context.setDefaultTimeout(120_000); // a machine that is busy with something else is no failure
   const page = await context.newPage();
   const trouble = [],
     requests = [];
@@ -58,6 +59,7 @@ export async function open(
     });
   const address = pathToFileURL(path).href;
   await page.goto(address + hash);
+  await frames(page);
   page.trouble = trouble;
   page.requests = requests;
   page.address = address;
@@ -72,6 +74,11 @@ export async function expectQuiet(page) {
   await page.context().close();
   if (trouble.length) throw new Error(`the page complained: ${trouble.join("; ")}`);
   if (others.length) throw new Error(`the page asked for ${others.join(", ")}`);
+}
+
+/** Waits two frames: in the first the page learns its sizes, in the second its charts are there. */
+export function frames(page) {
+  return page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 }
 
 /** Waits until the shared canvas has drawn all there is to draw. */
@@ -98,6 +105,7 @@ export async function go(page, hash) {
       }),
     hash,
   );
+  await frames(page);
 }
 
 /** Waits for the page of an object, or any other, by its heading. */
@@ -122,7 +130,9 @@ export function overflow(page) {
 export function poorContrast(page, least = 4.5) {
   return page.evaluate((limit) => {
     const canvas = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
-    const rgba = (css) => {
+    const seen = new Map();
+    const rgba = (css) => [...(seen.get(css) ?? seen.set(css, measured(css)).get(css))];
+    const measured = (css) => {
       canvas.clearRect(0, 0, 1, 1);
       canvas.fillStyle = css;
       canvas.fillRect(0, 0, 1, 1);

@@ -1,6 +1,6 @@
 // Reports of the real thing: a smoke run and perturbed objects, made by the binary in ANTIGRASP_BINARY.
 import { execFile } from "node:child_process";
-import { join } from "node:path";
+import { join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { promisify } from "node:util";
 import { folder } from "./browser.mjs";
@@ -13,7 +13,7 @@ async function antigrasp(...args) {
     throw new Error(
       "ANTIGRASP_BINARY: expected the path of the built binary, for example ../build/release/bin/antigrasp",
     );
-  await promisify(execFile)(binary, args, { cwd: folder, maxBuffer: 1 << 26 });
+  await promisify(execFile)(resolve(binary), args, { cwd: folder, maxBuffer: 1 << 26 });
 }
 
 /** Path of the report of a finished smoke run. */
@@ -25,7 +25,7 @@ export async function runReport() {
 
 /** Path of the report of objects changed by random perturbation, and their number. */
 export async function perturbedReport() {
-  const count = 12;
+  const count = 5;
   await antigrasp("dataset", "make", "cylinders", "--count", String(count), "--seed", "1", "--out", "cylinders.h5");
   await antigrasp("perturb", "random", "cylinders.h5", "--out", "random");
   await antigrasp("report", "random", "--out", "random.html");

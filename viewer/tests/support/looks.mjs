@@ -1,5 +1,5 @@
 import assert from "node:assert/strict";
-import { expectQuiet, go, open, overflow, poorContrast, settled } from "./browser.mjs";
+import { expectQuiet, frames, go, open, overflow, poorContrast, settled } from "./browser.mjs";
 
 /** Every page at both widths, in light and dark: as wide as the window, text readable. */
 export async function readable(browser, path, hashes) {
@@ -8,7 +8,7 @@ export async function readable(browser, path, hashes) {
     await go(page, hash);
     for (const width of [1280, 390]) {
       await page.setViewportSize({ width, height: 700 });
-      await settled(page);
+      await frames(page);
       await page.evaluate(() =>
         document.querySelectorAll("details").forEach((d) => {
           d.open = true;
@@ -26,8 +26,10 @@ export async function readable(browser, path, hashes) {
 
 /** The picture of a part of the page once drawing has come to rest. */
 export async function picture(page, selector, nth = 0) {
+  const element = page.locator(selector).nth(nth);
+  await element.evaluate((e) => e.scrollIntoView({ block: "nearest" }));
   await settled(page);
-  return page.locator(selector).nth(nth).screenshot();
+  return page.screenshot({ clip: await element.boundingBox() });
 }
 
 export async function drag(page, locator, dx, dy = 0) {
