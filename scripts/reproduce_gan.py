@@ -80,21 +80,16 @@ def picture(path, run, folder, out):
     call("sheet", *rows, "--pixels", 130, "--out", path)
 
 
-def summary():
-    lines = ["| set | resampling iterations | paper, % | against the prior set, % | against episode 0, % | against the control, % |",
-             "| --- | --- | --- | --- | --- | --- |"]
-    for run in RUNS:
-        results = RESULTS / "gan" / run.name
-        rows, control = rows_of(results), rows_of(results / "control")
-        last = max(rows, default=-1)
-        if last < 1:
-            lines.append(f"| {run.name} | not run yet | {run.paper} | | | |")
-            continue
-        references = (rows[-1], rows[0], control.get(last))
-        cells = [f"{100 * (1 - r[0]):.0f} ±{100 * r[1]:.0f}" if r else "" for r in
-                 (ratio(rows[last], reference) if reference else None for reference in references)]
-        lines.append(f"| {run.name} | {last} | {run.paper} | {' | '.join(cells)} |")
-    return "\n".join(lines)
+def reduction(run, results):
+    """One sentence: how far kappa fell, beside the paper's number."""
+    rows, control = rows_of(results), rows_of(results / "control")
+    last = max(rows)
+    found = []
+    for name, reference in (("prior set", rows[-1]), ("episode 0", rows[0]), ("control", control.get(last))):
+        if reference and last > 0:
+            value, half_width = ratio(rows[last], reference)
+            found.append(f"{100 * (1 - value):.0f} ±{100 * half_width:.0f} % against the {name}".replace("the episode", "episode"))
+    return f"After {last} resampling iterations kappa is lower by {', '.join(found)} (the paper: {run.paper} %)."
 
 
 def pretrained(runs):
@@ -118,14 +113,15 @@ def refresh(run, folder, out):
     picture(IMAGES / f"gan_{run.name}.png", run, folder, out)
 
 
-def document():
-    sections = []
-    for run in RUNS:
-        if not rows_of(RESULTS / "gan" / run.name):
-            continue
-        sections.append(f"""### {run.name}
+def document(run):
+    """A section of its own, so that each stays when another set is run elsewhere."""
+    results = RESULTS / "gan" / run.name
+    write_section(f"gan {run.name}", f"""
+### {run.name}
 
-{stage_table(run, RESULTS / "gan" / run.name)}
+Commit {commit()}. {reduction(run, results)}
+
+{stage_table(run, results)}
 
 ![Samples of {run.name}: prior set, then every episode](images/gan_{run.name}.png)
 
@@ -133,22 +129,7 @@ From above: prior set, then every episode; drawn at random, nothing picked.
 
 ![Histograms of graspability](images/gan_{run.name}_histograms.png)
 """)
-    write_section("gan", f"""
-## Sections VI-C and VI-D: CEM + GAN
-
-`scripts/reproduce gan`, written at commit {commit()}. 2,500 samples and 500 elites as in the paper; width, updates and the rest in
-[configs/reproduction.toml](../configs/reproduction.toml) (the paper: 16,000 updates an episode). Kappa is the mean over all usable samples of
-a stage, ± its 95 % interval. The control keeps 500 *random* usable samples in every episode: what it loses is what retraining alone
-does. COV, 1-NNA, MMD, diversity (mean pairwise distance by the prior's), Vendi score and roughness (mean dihedral angle) compare {COMPARED} samples with
-{COMPARED} prior shapes that no network has seen, on their surfaces ([similarity.md](similarity.md)). The numbers are kept in [results/gan](results/gan). **The bottles are our own surfaces of revolution, not ShapeNet's.**
-
-Reduction of kappa:
-
-{summary()}
-
-{"".join(sections)}
-""")
-    print(f"wrote {DOCUMENT}")
+    print(f"wrote {run.name} into {DOCUMENT}")
 
 
 def main():
@@ -165,7 +146,7 @@ def main():
         runs = [(run, arguments.out / run.name) for run in RUNS if rows_of(arguments.out / run.name)]
         for run, folder in runs:
             refresh(run, folder, arguments.out)
-        document()
+            document(run)
         pretrained(runs)
 
 
