@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <tuple>
+#include <type_traits>
 
 #include "antigrasp/mesh/convex_hull.h"
 #include "antigrasp/mesh/topology.h"
@@ -255,6 +257,28 @@ Eigen::Matrix3d TableFromObject(const Vector3d& up) {
   return rotation.array() + 0.0;  // no negative zeros
 }
 
+// CGAL triangulates a flat facet in an order that follows from addresses, and the last bits of sums
+// over it with that. They are cut off here, so that equal meshes have equal poses.
+template <typename Value>
+Value WithoutLastBits(const Value& value) {
+  constexpr double kDigits = 1e13;
+  if constexpr (std::is_arithmetic_v<Value>) {
+    return std::round(kDigits * value) / kDigits;
+  } else {
+    return (kDigits * value).array().round() / kDigits;
+  }
+}
+
+// The poses of a symmetric object are equally likely but for rounding: these in an order that
+// rounding cannot change.
+bool LikelierFirst(const StablePose& a, const StablePose& b) {
+  const auto key = [](const StablePose& pose) {
+    const Vector3d up = (1e6 * pose.table_from_object.row(2).transpose()).array().round() + 0.0;
+    return std::tuple(-std::round(1e9 * pose.probability), up.x(), up.y(), up.z());
+  };
+  return key(a) < key(b);
+}
+
 }  // namespace
 
 std::vector<StablePose> StablePoses(const TriangleMesh& mesh, const Vector3d& com) {
@@ -268,13 +292,12 @@ std::vector<StablePose> StablePoses(const TriangleMesh& mesh, const Vector3d& co
     const Facet& facet = hull.facets[resting[f]];
     StablePose& pose = by_facet[resting[f]];
     pose.probability += hull.facets[f].solid_angle / (4.0 * std::numbers::pi);
-    pose.table_from_object = TableFromObject(-facet.normal);
-    pose.com_height = facet.height;
+    pose.table_from_object = TableFromObject(WithoutLastBits(Vector3d(-facet.normal)).normalized());
+    pose.com_height = hull.size * WithoutLastBits(facet.height / hull.size);
   }
+  for (StablePose& pose : by_facet) pose.probability = WithoutLastBits(pose.probability);
   std::erase_if(by_facet, [](const StablePose& pose) { return pose.probability <= 0.0; });
-  std::stable_sort(by_facet.begin(), by_facet.end(), [](const StablePose& a, const StablePose& b) {
-    return a.probability > b.probability;
-  });
+  std::stable_sort(by_facet.begin(), by_facet.end(), LikelierFirst);
   return by_facet;
 }
 
