@@ -152,7 +152,7 @@ describe("perturbed objects", () => {
       .slice(1)
       .map(Number);
     const rotated = high.map((x, k) => x - low[k]);
-    if (/in the suggested print pose/.test(await page.locator(".buttons").innerText()))
+    if (/turned to the suggested print pose/.test(await page.locator(".buttons").innerText()))
       assert.ok(Math.max(...rotated) <= Math.hypot(...size) + 0.1);
     else rotated.forEach((x, k) => assert.ok(Math.abs(x - size[k]) < 0.2, `${rotated} mm is not ${size} mm`));
     assert.ok(Math.abs(low[2]) < 1e-3, "it stands on the plate");

@@ -66,7 +66,7 @@ test("the signed distances of a cuboid's section are those on paper, for every a
 });
 
 test("the outline of a section is closed and as long as the cuboid's rectangle", async () => {
-  const { outline } = await load("/src/data/section.ts");
+  const { loops, outline } = await load("/src/data/section.ts");
   const mesh = cuboid(0.3, 0.2, 0.1);
   const pieces = outline(mesh, 2, 0);
   let length = 0,
@@ -76,6 +76,10 @@ test("the outline of a section is closed and as long as the cuboid's rectangle",
     area += (pieces[i] * pieces[i + 3] - pieces[i + 2] * pieces[i + 1]) / 2;
   }
   near(length, 2, 1e-6);
+  const joined = loops(pieces);
+  assert.equal(joined.length, 1, "one loop");
+  assert.deepEqual(joined[0][0], joined[0][joined[0].length - 1], "that ends where it began");
+  assert.equal(joined[0].length, pieces.length / 4 + 1, "and leaves no piece out");
   near(area, 0.24, 1e-6); // positive: the solid lies to the left
 });
 

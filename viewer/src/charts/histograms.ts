@@ -38,7 +38,7 @@ export function stackedHistograms(rows: Row[], label: string, width: number): El
     width,
     height: rows.length * (rows.length < 4 ? FEW_ROWS_HEIGHT : ROW_HEIGHT) + 60,
     marginLeft: narrow ? 42 : 46,
-    marginRight: narrow ? 62 : 92,
+    marginRight: narrow ? 72 : 92,
     marginBottom: 42,
     marginTop: 14,
     ariaLabel: "Histograms of graspability by stage",

@@ -1,6 +1,6 @@
 import * as Plot from "@observablehq/plot";
 import { distanceColour } from "../colours";
-import type { DistanceGrid, Outline } from "../data/section";
+import { type DistanceGrid, loops, type Outline } from "../data/section";
 
 export interface SectionLook {
   /** Millimetres per mesh unit. */
@@ -26,9 +26,7 @@ export function sectionChart(
   const values = grid.values.map((value) => value * mm);
   const span = step * STEPS;
   const thresholds = Array.from({ length: 2 * STEPS + 1 }, (_, i) => (i - STEPS) * step);
-  const segments = Array.from({ length: pieces.length / 4 }, (_, i) =>
-    Array.from(pieces.subarray(4 * i, 4 * i + 4), (x) => x * mm),
-  );
+  const surface = loops(pieces).flatMap((loop, n) => loop.map(([x, y]) => ({ x: x * mm, y: y * mm, n })));
   const side = Math.min(width, 470);
   return Plot.plot({
     width: side,
@@ -76,15 +74,7 @@ export function sectionChart(
         stroke: "#00000030",
         strokeWidth: 0.5,
       } as Plot.ContourOptions),
-      Plot.link(segments, {
-        x1: "0",
-        y1: "1",
-        x2: "2",
-        y2: "3",
-        stroke: "#111",
-        strokeWidth: 1.8,
-        strokeLinecap: "round",
-      }),
+      Plot.line(surface, { x: "x", y: "y", z: "n", stroke: "#111", strokeWidth: 1.8, strokeLinejoin: "round" }),
     ],
   });
 }

@@ -57,6 +57,32 @@ export function outline(mesh: Mesh, axis: Axis, at: number): Outline {
 }
 
 /**
+ * The outline's pieces joined end to end, each loop a list of points. Two triangles compute the crossing of their common
+ * edge from the same numbers, so that ends that belong together are equal to the last bit.
+ */
+export function loops(pieces: Outline): [number, number][][] {
+  const starts = new Map<string, number[]>();
+  const key = (i: number) => `${pieces[i]},${pieces[i + 1]}`;
+  for (let i = 0; i < pieces.length; i += 4) {
+    const known = starts.get(key(i));
+    if (known) known.push(i);
+    else starts.set(key(i), [i]);
+  }
+  const found: [number, number][][] = [];
+  for (let i = 0; i < pieces.length; i += 4) {
+    const loop: [number, number][] = [];
+    let next: number | undefined = starts.get(key(i))?.pop();
+    while (next !== undefined) {
+      if (!loop.length) loop.push([pieces[next], pieces[next + 1]]);
+      loop.push([pieces[next + 2], pieces[next + 3]]);
+      next = starts.get(key(next + 2))?.pop();
+    }
+    if (loop.length) found.push(loop);
+  }
+  return found;
+}
+
+/**
  * For every sample of the row at height v whether it is inside: how often the outline winds around it is summed up
  * from the left. Exact where a ray through the mesh could hit an edge.
  */

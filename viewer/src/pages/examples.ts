@@ -124,7 +124,7 @@ export function exampleFigure(
     h(
       "p",
       { class: "note" },
-      `${report.kind === "run" ? "Of every stage objects that were drawn at random" : "The first objects, not selected"}; below each its graspability, ${MILLI_UNIT}.`,
+      `${report.kind === "run" ? "Of every stage objects drawn at random, the very least graspable left out" : "The first objects, not selected"}; below each its graspability, ${MILLI_UNIT}.`,
     ),
   );
   return {

@@ -61,7 +61,7 @@ export function objectButtons(object: ObjectRecord, surface: Surface | null): HT
   const plan = mesh ? stlPlan(object, mesh) : null;
   const size = mesh && plan ? [0, 1, 2].map((k) => fixed((mesh.max[k] - mesh.min[k]) * plan.scale, 0)).join(" × ") : "";
   const says = plan
-    ? `STL: millimetres, ${size} mm${plan.pose ? ", in the suggested print pose" : ""}${object.mesh?.full_triangles ? ", decimated as shown" : ""}.`
+    ? `STL: ${size} mm${plan.pose ? ", turned to the suggested print pose" : ""}${object.mesh?.full_triangles ? ", decimated as shown" : ""}.`
     : "";
   return h(
     "div",

@@ -19,7 +19,7 @@ async function antigrasp(...args) {
 /** Path of the report of a finished smoke run. */
 export async function runReport() {
   await antigrasp("train", SMOKE, "--out", "run");
-  await antigrasp("report", "run", "--out", "run.html");
+  await antigrasp("report", "run", "--per-stage", "10", "--out", "run.html");
   return join(folder, "run.html");
 }
 
