@@ -119,7 +119,7 @@ def document(run):
     write_section(f"gan {run.name}", f"""
 ### {run.name}
 
-Commit {commit()}. {reduction(run, results)}
+Written at commit {commit()}. {reduction(run, results)}
 
 {stage_table(run, results)}
 

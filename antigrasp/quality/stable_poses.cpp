@@ -7,7 +7,6 @@
 #include <numbers>
 #include <numeric>
 #include <tuple>
-#include <type_traits>
 
 #include "antigrasp/mesh/convex_hull.h"
 #include "antigrasp/mesh/topology.h"
@@ -259,15 +258,13 @@ Eigen::Matrix3d TableFromObject(const Vector3d& up) {
 
 // CGAL triangulates a flat facet in an order that follows from addresses, and the last bits of sums
 // over it with that. They are cut off here, so that equal meshes have equal poses.
-template <typename Value>
-Value WithoutLastBits(const Value& value) {
-  constexpr double kDigits = 1e13;
-  if constexpr (std::is_arithmetic_v<Value>) {
-    return std::round(kDigits * value) / kDigits;
-  } else {
-    return (kDigits * value).array().round() / kDigits;
-  }
+constexpr double kKept = 0x1p44;  // of 2^53
+double WithoutLastBits(double value) {
+  int exponent = 0;
+  const double mantissa = std::frexp(value, &exponent);
+  return std::ldexp(std::round(kKept * mantissa) / kKept, exponent);
 }
+Vector3d WithoutLastBits(const Vector3d& unit) { return (kKept * unit).array().round() / kKept; }
 
 // The poses of a symmetric object are equally likely but for rounding: these in an order that
 // rounding cannot change.
@@ -293,7 +290,7 @@ std::vector<StablePose> StablePoses(const TriangleMesh& mesh, const Vector3d& co
     StablePose& pose = by_facet[resting[f]];
     pose.probability += hull.facets[f].solid_angle / (4.0 * std::numbers::pi);
     pose.table_from_object = TableFromObject(WithoutLastBits(Vector3d(-facet.normal)).normalized());
-    pose.com_height = hull.size * WithoutLastBits(facet.height / hull.size);
+    pose.com_height = WithoutLastBits(facet.height);
   }
   for (StablePose& pose : by_facet) pose.probability = WithoutLastBits(pose.probability);
   std::erase_if(by_facet, [](const StablePose& pose) { return pose.probability <= 0.0; });
