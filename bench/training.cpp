@@ -9,9 +9,11 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/parallel.h"
 #include "antigrasp/models/random_tensor.h"
 #include "antigrasp/train/gan_trainer.h"
 #include "antigrasp/train/torch_threads.h"
@@ -38,10 +40,11 @@ torch::Tensor RandomGrids(std::int64_t count) {
   return NormalTensor({count, 1, 32, 32, 32}, 0.3, &rng).clamp_(-1.0, 1.0);
 }
 
-std::unique_ptr<GanTrainer> MakeTrainer(const ModelOptions& model, int batch) {
+std::unique_ptr<GanTrainer> MakeTrainer(const ModelOptions& model, int batch,
+                                        torch::Device device = torch::kCPU) {
   GanOptions options;
   options.batch = batch;
-  auto trainer = std::make_unique<GanTrainer>(model, options, 1, torch::kCPU);
+  auto trainer = std::make_unique<GanTrainer>(model, options, 1, device);
   trainer->BeginEpisode(0, kIterations, false);
   return trainer;
 }
@@ -130,6 +133,43 @@ void CompareSteps() {
   for (const int threads : {1, 2}) {
     for (const int width : {8, 16, 32}) {
       for (const int pack : {1, 4}) CompareSteps(width, pack, threads);
+    }
+  }
+}
+
+// Tried: cuDNN's algorithms are timed once and the fastest kept, as training does. A step ends with
+// a wait for the device: it reports its losses.
+void CompareDevices() {
+  if (!torch::cuda::is_available()) {
+    std::printf("left out: CUDA (this LibTorch or this machine has none)\n");
+    return;
+  }
+  SetTorchThreads(HardwareThreads());
+  for (const int width : {8, 16, 32, 64}) {
+    std::vector<Contender> contenders;
+    for (const auto& [name, device, precision, tries] :
+         {std::tuple("cpu", torch::kCPU, "float32", false),
+          std::tuple("cuda", torch::kCUDA, "float32", false),
+          std::tuple("cuda_tried", torch::kCUDA, "float32", true),
+          std::tuple("cuda_tried_bfloat16", torch::kCUDA, "bfloat16", true)}) {
+      ModelOptions model = Model(width, 4);
+      model.pack_at = "features";
+      model.precision = precision;
+      const std::shared_ptr<GanTrainer> trainer = MakeTrainer(model, kBatch, device);
+      const torch::Tensor shapes = RandomGrids(64).to(device);
+      const int steps = device == torch::kCPU ? 1 : 20;
+      const auto work = [=, tries = tries] {
+        at::globalContext().setBenchmarkCuDNN(tries);
+        for (int i = 0; i < steps; ++i) trainer->Step(shapes);
+      };
+      work();
+      contenders.push_back({name, work, steps});
+    }
+    const std::vector<double> seconds = MedianSeconds(contenders, 3);
+    const std::string name = "device_step_width" + std::to_string(width) + "_";
+    for (std::size_t i = 0; i < seconds.size(); ++i) {
+      PrintTime(name + contenders[i].name, seconds[i]);
+      if (i > 0) PrintRatio(name + contenders[i].name + "_vs_cpu", seconds[0] / seconds[i]);
     }
   }
 }
@@ -223,7 +263,8 @@ int main(int argc, char** argv) {
       {"equality", CheckEquality},
       {"steps", [] { CompareSteps(); }},
       {"sampling", [] { CompareSampling(); }},
-      {"memory", [&] { MeasureMemory(argv[0]); }}};
+      {"memory", [&] { MeasureMemory(argv[0]); }},
+      {"devices", CompareDevices}};
   for (const auto& [name, compare] : comparisons) {
     if (!wants(name)) continue;
     known = true;
@@ -232,6 +273,6 @@ int main(int argc, char** argv) {
   if (known) return 0;
   std::fprintf(stderr,
                "bench_training [equality | steps [WIDTH PACK THREADS] | sampling [WIDTH THREADS] | "
-               "memory]\n");
+               "memory | devices]\n");
   return 2;
 }

@@ -91,9 +91,9 @@ at::Tensor ConvGradient(const at::Tensor& grad_output, const at::Tensor& input,
 at::Tensor Convolve(const at::Tensor& cells, const at::Tensor& weight, const at::Tensor& bias,
                     at::ScalarType compute) {
   if (!TakesCellConv(cells, weight, compute)) {
-    const at::Tensor sums =
-        at::conv3d(Operand(cells, compute), Operand(FoldKernel(weight), compute),
-                   bias.defined() ? bias.to(compute) : bias);
+    const at::Tensor x = Operand(cells, compute);
+    const at::Tensor sums = at::conv3d(x, Operand(FoldKernel(weight), compute),
+                                       bias.defined() ? bias.to(x.scalar_type()) : bias);
     return sums.to(cells.scalar_type());
   }
   const at::Tensor x = cells.contiguous(kChannelsLast);

@@ -1,5 +1,6 @@
 #include "antigrasp/train/adam.h"
 
+#include <ATen/ATen.h>
 #include <torch/utils.h>
 
 #include <cmath>
@@ -30,6 +31,17 @@ void Adam::Step(const std::vector<torch::Tensor>& gradients, double learning_rat
   steps_.add_(1);
   const double t = static_cast<double>(steps_.item<std::int64_t>());
   const double bias1 = 1.0 - std::pow(beta1_, t), bias2 = 1.0 - std::pow(beta2_, t);
+  if (parameters_.front().is_cuda()) {  // few launches for many small tensors
+    at::_foreach_mul_(first_, beta1_);
+    at::_foreach_add_(first_, gradients, 1.0 - beta1_);
+    at::_foreach_mul_(second_, beta2_);
+    at::_foreach_addcmul_(second_, gradients, gradients, 1.0 - beta2_);
+    std::vector<torch::Tensor> roots = at::_foreach_div(second_, bias2);
+    at::_foreach_sqrt_(roots);
+    at::_foreach_add_(roots, kEpsilon);
+    at::_foreach_addcdiv_(parameters_, first_, roots, -learning_rate / bias1);
+    return;
+  }
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     const torch::Tensor& g = gradients[i];
     first_[i].mul_(beta1_).add_(g, 1.0 - beta1_);

@@ -60,6 +60,12 @@ void AveragedGenerator::Follow(const Generator& source, double decay) {
   torch::NoGradGuard no_grad;
   const auto from = source->parameters();
   auto to = network_->parameters();
+  if (decay > 0.0 && device_.is_cuda()) {  // few launches for many small tensors
+    at::_foreach_mul_(to, decay);
+    at::_foreach_add_(to, from, 1.0 - decay);
+    statistics_stale_ = true;
+    return;
+  }
   for (std::size_t i = 0; i < to.size(); ++i) {
     if (decay > 0.0) {
       to[i].lerp_(from[i], 1.0 - decay);

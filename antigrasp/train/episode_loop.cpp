@@ -36,6 +36,7 @@ class EpisodeLoop {
   void TrainEpisode();
   void TrainUpdates();
   StepReport TrainStep();
+  void TrainOn(const torch::Tensor& shapes);
   torch::Tensor SampleStage();
   Selection Select(const ScoredStage& scored) const;
   void Record(const ScoredStage& scored, const Selection& selection);
@@ -51,7 +52,8 @@ class EpisodeLoop {
   GanTrainer trainer_;
   torch::Tensor prior_;  // network values of the prior set, float16
   EliteSelector selector_;
-  torch::Tensor shapes_;  // what the current episode trains on, float16
+  torch::Tensor shapes_;            // what the current episode trains on, float16
+  torch::Tensor shapes_on_device_;  // the same where the networks are
   std::vector<LossRow> losses_;
   std::optional<ScalarLog> log_;
   std::vector<StageStatistics> rows_;
@@ -64,8 +66,14 @@ EpisodeLoop::EpisodeLoop(const RunConfig& config, const RunFolder& folder, RunOb
       observer_(observer),
       trainer_(MakeTrainer(config)),
       prior_(NetworkValuesOf(ReadShapeSet(folder.Prior()), config.model, folder.Prior().string())),
-      selector_(config, prior_),
-      shapes_(prior_) {}
+      selector_(config, prior_) {
+  TrainOn(prior_);
+}
+
+void EpisodeLoop::TrainOn(const torch::Tensor& shapes) {
+  shapes_ = shapes;
+  shapes_on_device_ = shapes.to(trainer_.device());
+}
 
 std::vector<StageStatistics> EpisodeLoop::Run() {
   Restore();
@@ -101,7 +109,7 @@ void EpisodeLoop::Restore() {
   }
   const Checkpoint checkpoint = ReadCheckpoint(folder_.Latest());
   ReadNetworks(folder_.Latest(), [&](auto* archive) { trainer_.Load(archive); });
-  shapes_ = checkpoint.shapes;
+  TrainOn(checkpoint.shapes);
   rows_ = StatisticsFromCsv(checkpoint.statistics, folder_.Latest().string());
   finished_ = checkpoint.finished;
   const torch::Tensor losses = checkpoint.losses.contiguous();
@@ -149,7 +157,7 @@ void EpisodeLoop::TrainUpdates() {
   while (trainer_.step() < trainer_.iterations()) {
     const StepReport report = TrainStep();
     if (trainer_.step() % kRecordEvery == 0) {
-      losses_.push_back(RowOf(trainer_.step(), report));
+      losses_.push_back(RowOf(trainer_.step(), report, trainer_.LargestSigma()));
       observer_->Detail(LossText(report));
       const std::chrono::duration<double> passed = Clock::now() - recorded;
       recorded = Clock::now();
@@ -164,7 +172,7 @@ void EpisodeLoop::TrainUpdates() {
 
 StepReport EpisodeLoop::TrainStep() {
   try {
-    return trainer_.Step(shapes_);
+    return trainer_.Step(shapes_on_device_);
   } catch (const RuntimeFailure& failure) {
     if (!fs::exists(folder_.Latest())) throw;
     throw RuntimeFailure(std::string(failure.what()) + "; the last good state is in " +
@@ -228,7 +236,7 @@ void EpisodeLoop::BeginEpisode(int episode, const ScoredStage& scored, const Sel
     trainer_.BeginFixedEpisode(episode,
                                AroundElites(z, config_.cem.step, config_.cem.prior_fraction));
   } else {
-    shapes_ = selector_.TrainingSet(scored, selection);
+    TrainOn(selector_.TrainingSet(scored, selection));
     trainer_.BeginEpisode(episode, config_.cem.iterations, config_.cem.restart);
   }
   Save(folder_.Latest());
@@ -282,6 +290,8 @@ GanTrainer MakeTrainer(const RunConfig& config) {
     if (device.is_cuda() && !torch::cuda::is_available()) {
       throw InputError("run.device = " + config.device, "--device", expected);
     }
+    // Every step convolves the same shapes: trying cuDNN's algorithms once pays.
+    if (device.is_cuda()) at::globalContext().setBenchmarkCuDNN(true);
     return GanTrainer(config.model, config.gan, config.seed, device);
   } catch (const c10::Error&) {
     throw InputError("run.device = " + config.device, "--device", expected);

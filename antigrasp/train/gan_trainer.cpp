@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/error.h"
@@ -35,8 +37,8 @@ struct GanTrainer::Impl {
   void UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake, RngStream* rng,
                            StepReport* report);
   void UpdateGenerator(const torch::Tensor& fake, RngStream* rng, StepReport* report);
-  double Finite(const char* what, const torch::Tensor& value) const;
-  double FiniteNorm(const std::vector<torch::Tensor>& gradients) const;
+  std::pair<double, double> FiniteLossAndNorm(const torch::Tensor& loss,
+                                              const std::vector<torch::Tensor>& gradients) const;
   double LearningRateFactor() const;
   double AverageDecay() const;
   NamedTensors State(const torch::Tensor& progress, const LatentMixture& mixture) const;
@@ -87,7 +89,8 @@ torch::Tensor GanTrainer::Impl::RealBatch(const torch::Tensor& shapes, RngStream
   for (std::int64_t i = 0; i < options.batch; ++i) {
     indices[i] = static_cast<std::int64_t>(rng->Below(static_cast<std::uint64_t>(shapes.size(0))));
   }
-  const torch::Tensor batch = shapes.index_select(0, indices).to(device, torch::kFloat);
+  const torch::Tensor batch =
+      shapes.index_select(0, indices.to(shapes.device())).to(device, torch::kFloat);
   return Fold(RandomSymmetries(batch, options.symmetries, rng));
 }
 
@@ -101,9 +104,9 @@ void GanTrainer::Impl::UpdateDiscriminator(const torch::Tensor& real, const torc
       Augment(torch::cat({real, fake.detach()}), options.augment, rng));
   const auto halves = score.chunk(2);
   const torch::Tensor loss = DiscriminatorLoss(halves[0], halves[1]);
-  report->loss_discriminator = Finite("loss", loss);
   const auto gradients = torch::autograd::grad({loss}, adam_discriminator.parameters());
-  report->gradient_discriminator = FiniteNorm(gradients);
+  std::tie(report->loss_discriminator, report->gradient_discriminator) =
+      FiniteLossAndNorm(loss, gradients);
   report->rate_discriminator = options.learning_rate_d * LearningRateFactor();
   adam_discriminator.Step(gradients, report->rate_discriminator);
 }
@@ -114,30 +117,28 @@ void GanTrainer::Impl::UpdateGenerator(const torch::Tensor& fake, RngStream* rng
   const torch::Tensor input = fake.detach().requires_grad_();
   const torch::Tensor loss =
       GeneratorLoss(discriminator->ForwardFolded(Augment(input, options.augment, rng)));
-  report->loss_generator = Finite("loss", loss);
   const auto grad_input = torch::autograd::grad({loss}, {input});
   const auto gradients = torch::autograd::grad({fake}, adam_generator.parameters(), grad_input);
-  report->gradient_generator = FiniteNorm(gradients);
+  std::tie(report->loss_generator, report->gradient_generator) = FiniteLossAndNorm(loss, gradients);
   report->rate_generator = options.learning_rate_g * LearningRateFactor();
   adam_generator.Step(gradients, report->rate_generator);
 }
 
-// Asked before the update, so that the weights stay finite.
-double GanTrainer::Impl::Finite(const char* what, const torch::Tensor& value) const {
-  const auto number = value.item<double>();
-  if (!std::isfinite(number)) {
-    throw RuntimeFailure("training diverged: a " + std::string(what) + " is not finite at step " +
-                         std::to_string(step) + " of episode " + std::to_string(episode) +
+// Asked before the update, so that the weights stay finite; one wait for the device.
+std::pair<double, double> GanTrainer::Impl::FiniteLossAndNorm(
+    const torch::Tensor& loss, const std::vector<torch::Tensor>& gradients) const {
+  torch::NoGradGuard no_grad;
+  const torch::Tensor norm = torch::stack(at::_foreach_norm(gradients)).norm();
+  const torch::Tensor both = torch::stack({loss, norm}).to(torch::kCPU, torch::kDouble);
+  const double* values = both.data_ptr<double>();
+  for (int i = 0; i < 2; ++i) {
+    if (std::isfinite(values[i])) continue;
+    throw RuntimeFailure("training diverged: a " + std::string(i == 0 ? "loss" : "gradient") +
+                         " is not finite at step " + std::to_string(step) + " of episode " +
+                         std::to_string(episode) +
                          " (lower gan.learning_rate_g and gan.learning_rate_d)");
   }
-  return number;
-}
-
-double GanTrainer::Impl::FiniteNorm(const std::vector<torch::Tensor>& gradients) const {
-  torch::NoGradGuard no_grad;
-  std::vector<torch::Tensor> norms;
-  for (const torch::Tensor& gradient : gradients) norms.push_back(gradient.norm());
-  return Finite("gradient", torch::stack(norms).norm());
+  return {values[0], values[1]};
 }
 
 double GanTrainer::Impl::LearningRateFactor() const {
@@ -246,15 +247,17 @@ StepReport GanTrainer::Step(const torch::Tensor& shapes) {
     t.UpdateDiscriminator(real, fake, &rng, &report);
   }
   t.UpdateGenerator(fake, &rng, &report);
-  report.largest_sigma = t.discriminator->LargestSigma();
   t.average.Follow(t.generator, t.AverageDecay());
   ++t.step;
   return report;
 }
 
+double GanTrainer::LargestSigma() const { return impl_->discriminator->LargestSigma(); }
+
 std::int64_t GanTrainer::step() const { return impl_->step; }
 std::int64_t GanTrainer::iterations() const { return impl_->iterations; }
 int GanTrainer::episode() const { return impl_->episode; }
+torch::Device GanTrainer::device() const { return impl_->device; }
 
 torch::Tensor GanTrainer::Latents(std::uint64_t seed, std::int64_t first,
                                   std::int64_t count) const {

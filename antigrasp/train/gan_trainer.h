@@ -20,7 +20,6 @@ struct StepReport {
   double gradient_generator = 0.0;
   double rate_discriminator = 0.0;  // Adam's learning rates
   double rate_generator = 0.0;
-  double largest_sigma = 0.0;  // largest singular value of a discriminator's weight, undivided
 };
 
 // The networks, their average, their optimisers and the step count: all that training changes.
@@ -41,13 +40,17 @@ class GanTrainer {
   void BeginFixedEpisode(int episode, const LatentMixture& latent);
 
   // One update of D (discriminator_steps of them) and of G. `shapes`: [N, 1, 32, 32, 32] float16 or
-  // float32 network values on the CPU. A loss or gradient that is not finite: RuntimeFailure before
+  // float32 network values, fastest on the trainer's own device. A loss or gradient that is not finite: RuntimeFailure before
   // it reaches the weights.
   StepReport Step(const torch::Tensor& shapes);
+
+  // The largest singular value of a discriminator's weight, undivided; nan without spectral norm.
+  double LargestSigma() const;
 
   std::int64_t step() const;        // steps done in this episode
   std::int64_t iterations() const;  // of this episode
   int episode() const;
+  torch::Device device() const;
 
   // Sample `first + i` of stream `seed` from the averaged generator, i in [0, count): network
   // values [count, 1, 32, 32, 32] float32 on the CPU. Sample i does not depend on count or batch.

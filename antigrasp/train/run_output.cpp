@@ -32,9 +32,9 @@ std::string StageName(int episode, const std::string& doing) {
   return "episode " + std::to_string(episode) + ": " + doing;
 }
 
-LossRow RowOf(std::int64_t step, const StepReport& r) {
+LossRow RowOf(std::int64_t step, const StepReport& r, double largest_sigma) {
   return {double(step),         r.loss_discriminator, r.loss_generator, r.gradient_discriminator,
-          r.gradient_generator, r.rate_discriminator, r.rate_generator, r.largest_sigma};
+          r.gradient_generator, r.rate_discriminator, r.rate_generator, largest_sigma};
 }
 
 std::string LossesCsv(const std::vector<LossRow>& rows) {

@@ -18,7 +18,8 @@ namespace antigrasp {
 
 std::string StageName(int episode, const std::string& doing);  // "episode 1: scoring"
 
-// A row of episode_K/losses.csv: the step within the episode, then a StepReport in its order.
+// A row of episode_K/losses.csv: the step within the episode, then a StepReport in its order, then
+// GanTrainer::LargestSigma.
 inline constexpr std::array<const char*, 8> kLossColumns = {"step",
                                                             "loss_discriminator",
                                                             "loss_generator",
@@ -28,7 +29,7 @@ inline constexpr std::array<const char*, 8> kLossColumns = {"step",
                                                             "rate_generator",
                                                             "largest_sigma"};
 using LossRow = std::array<double, kLossColumns.size()>;
-LossRow RowOf(std::int64_t step, const StepReport& report);
+LossRow RowOf(std::int64_t step, const StepReport& report, double largest_sigma);
 std::string LossesCsv(const std::vector<LossRow>& rows);  // a NaN is an empty field
 std::string LossText(const StepReport& report);
 
