@@ -1,24 +1,25 @@
 """Sections VI-C and VI-D with the binary antigrasp: runs, tables, figures. Called by scripts/reproduce."""
 import argparse
-import csv
 import pathlib
 
-import numpy as np
+from reproduce_document import DOCUMENT, IMAGES, call, commit, write_section
+from reproduce_runs import CONFIG, RESULTS, SURFACE_COLUMNS, compare, keep, ratio, rows_of, shown, surface_cells, surfaces, train
 
-from reproduce_document import DOCUMENT, IMAGES, call, commit, pyplot, save_figure, write_section
-from reproduce_runs import (COMPARED, RESULTS, SAMPLE_SEED, SURFACE_COLUMNS, compare, held_out, keep, ratio, rows_of, shown, surface_cells,
-                            surfaces, train)
+
+WIDE = "configs/reproduction_wide.toml"
 
 
 class Run:
     """A CEM + GAN run of the paper: the set, its resampling iterations and the reduction it reports, %."""
 
-    def __init__(self, name, kind, episodes, paper, settings=()):
+    def __init__(self, name, kind, episodes, paper, settings=(), config=CONFIG, start=None):
         self.name, self.kind, self.episodes, self.paper, self.ships = name, kind, episodes, paper, name == kind
-        self.settings = [f"prior.kind={kind}", f"cem.episodes={episodes}", *settings]
+        self.settings, self.config, self.start = [f"prior.kind={kind}", f"cem.episodes={episodes}", *settings], config, start
 
 
-RUNS = [Run("cylinders", "cylinders", 3, 22), Run("prisms", "prisms", 4, 36), Run("bottles", "bottles", 5, 17),
+RUNS = [Run("cylinders", "cylinders", 3, 22),
+        Run("prisms", "prisms", 4, 36, config=WIDE, start="prisms-prior"),
+        Run("bottles", "bottles", 5, 17, config=WIDE, start="bottles-prior"),
         Run("cylinders-no-spectral-norm", "cylinders", 5, 83, ["model.spectral_norm=false"])]
 
 
@@ -48,38 +49,6 @@ def stage_table(run, results):
     return "\n".join(lines)
 
 
-def scores(file):
-    return np.array([float(r["graspability"]) for r in csv.DictReader(open(file)) if r["graspability"]])
-
-
-def histograms(path, run, folder):
-    """Figure 4: graspability of every stage by the mean of episode 0, one axis."""
-    episodes = sorted(e for e in rows_of(folder) if e >= 0)
-    figure, axes = pyplot().subplots(1, len(episodes) + 1, figsize=(2.1 * (len(episodes) + 1), 2.2), sharex=True, sharey=True)
-    unit = scores(folder / "episode_0/scores.csv").mean()
-    files = [("prior set", folder / "prior_scores.csv")]
-    files += [(f"episode {e}", folder / f"episode_{e}/scores.csv") for e in episodes]
-    for ax, (label, file) in zip(axes, files):
-        values = scores(file) / unit
-        ax.hist(values, np.linspace(0, 2.5, 31), density=True, color="#b2182b" if "episode" in label else "0.6")
-        ax.axvline(values.mean(), color="0.2", linewidth=0.9, linestyle="--")
-        ax.set_title(f"{label}: {values.mean():.2f}", fontsize=9)
-        ax.set_yticks([])
-        ax.tick_params(labelsize=8)
-        ax.spines[["top", "right"]].set_visible(False)
-    figure.supxlabel("graspability / mean of episode 0 (dashed: mean)", fontsize=9)
-    save_figure(figure, path)
-
-
-def picture(path, run, folder, out):
-    """Rows: prior set, then every episode; ten objects drawn at random."""
-    rows = [held_out(run.kind, out, 10, 3)]
-    for episode in sorted(e for e in rows_of(folder) if e >= 0):
-        rows.append(out / f"picture-{run.name}-{episode}.h5")
-        call("sample", folder / f"episode_{episode}/checkpoint.pt", "--count", 10, "--seed", SAMPLE_SEED, "--out", rows[-1])
-    call("sheet", *rows, "--pixels", 130, "--out", path)
-
-
 def reduction(run, results):
     """One sentence: how far kappa fell, beside the paper's number."""
     rows, control = rows_of(results), rows_of(results / "control")
@@ -99,7 +68,7 @@ def pretrained(runs):
     for run, runs_folder in runs:
         last = max(rows_of(runs_folder), default=-1)
         if run.ships and last == run.episodes:
-            for episode, name in ((0, "prior"), (last, "adversarial")):
+            for episode, name in ((0, "prior"), (last, "adversarial"))[1 if run.start else 0:]:
                 call("generator", runs_folder / f"episode_{episode}/checkpoint.pt", "--out", folder / f"{run.name}-{name}.pt")
 
 
@@ -109,25 +78,23 @@ def refresh(run, folder, out):
         compare(folder, episode, run.kind, out)
     compare(folder / "control", run.episodes, run.kind, out)
     keep(folder, RESULTS / "gan" / run.name)
-    histograms(IMAGES / f"gan_{run.name}_histograms.png", run, folder)
-    picture(IMAGES / f"gan_{run.name}.png", run, folder, out)
+    call("figure", 4, folder, "--out", IMAGES / f"gan_{run.name}.png")
 
 
 def document(run):
     """A section of its own, so that each stays when another set is run elsewhere."""
     results = RESULTS / "gan" / run.name
+    start = f", from the networks `{run.start}`" if run.start else ""
     write_section(f"gan {run.name}", f"""
 ### {run.name}
 
-Written at commit {commit()}. {reduction(run, results)}
+Written at commit {commit()}, [{run.config}](../{run.config}){start}. {reduction(run, results)}
 
 {stage_table(run, results)}
 
-![Samples of {run.name}: prior set, then every episode](images/gan_{run.name}.png)
+![Graspability and samples of {run.name}](images/gan_{run.name}.png)
 
-From above: prior set, then every episode; drawn at random, nothing picked.
-
-![Histograms of graspability](images/gan_{run.name}_histograms.png)
+`antigrasp figure 4`: from above the prior set, then every episode; the first usable samples of each, nothing picked.
 """)
     print(f"wrote {run.name} into {DOCUMENT}")
 
@@ -136,12 +103,16 @@ def main():
     parser = argparse.ArgumentParser(prog="scripts/reproduce gan")
     parser.add_argument("--only", choices=[run.name for run in RUNS], help="one run; several calls may run side by side")
     parser.add_argument("--report", action="store_true", help="train nothing; write what there is into the document")
+    parser.add_argument("--from-scratch", action="store_true", help="train episode 0 of every set (wide ones: an hour on a core)")
+    parser.add_argument("--device", default="cpu", help="of the networks: cpu, cuda")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("runs/gan"), help="folder of the runs")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     for run in RUNS:
         if not arguments.report and arguments.only in (None, run.name):
-            train(f"{run.name}: {run.episodes} resampling iterations and their control", arguments.out / run.name, run.settings)
+            start = ["--from", run.start] if run.start and not arguments.from_scratch else []
+            train(f"{run.name}: {run.episodes} resampling iterations and their control", arguments.out / run.name, run.settings,
+                  extra=[*start, "--device", arguments.device], config=run.config)
     if arguments.report or not arguments.only:
         runs = [(run, arguments.out / run.name) for run in RUNS if rows_of(arguments.out / run.name)]
         for run, folder in runs:

@@ -15,11 +15,11 @@ SAMPLE_SEED = 1000
 RESULTS = pathlib.Path("docs/results")  # the numbers behind the tables, kept when the runs are gone
 
 
-def train(label, folder, settings, extra=()):
+def train(label, folder, settings, extra=(), config=CONFIG):
     """Runs or goes on; the program shows its own progress. Ctrl-C leaves a run that goes on the next time."""
     flags = [flag for setting in settings for flag in ("--set", setting)]
     print(label, flush=True)
-    code = subprocess.run([BINARY, "train", CONFIG, "--or-resume", "--out", folder, *extra, *flags]).returncode
+    code = subprocess.run([BINARY, "train", config, "--or-resume", "--out", folder, *extra, *flags]).returncode
     if code:
         sys.exit(code)
 

@@ -13,6 +13,7 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/figures/histogram.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/quality/graspability.h"
 #include "antigrasp/sdf/mesh_to_sdf.h"
 #include "antigrasp/sdf/remesh.h"
 
@@ -25,12 +26,6 @@ constexpr std::size_t kMostObjects = 100;  // of a figure; more would not be see
 // Grid cells between an object and the sides of the unit cube, as `dataset import` leaves them.
 constexpr double kClearance = 2.0;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-std::size_t NeedColumn(const CsvReader& csv, const fs::path& path, const std::string& name) {
-  const auto column = csv.Column(name);
-  if (!column) throw InputError("no column " + name, path.string(), "a table with " + name);
-  return *column;
-}
 
 void CheckLabels(const std::vector<std::string>& labels, std::size_t count) {
   if (labels.empty() || labels.size() == count) return;
@@ -98,9 +93,9 @@ std::vector<GraspedObject> GraspedObjects(const std::vector<std::string>& inputs
 std::vector<PairHistory> ReadHistories(const fs::path& path) {
   RequireFile(path, "history.csv of antigrasp perturb ... --history");
   CsvReader csv(path);
-  const std::size_t object = NeedColumn(csv, path, "object");
-  const std::size_t iteration = NeedColumn(csv, path, "iteration");
-  const std::size_t pairs = NeedColumn(csv, path, "pairs");
+  const std::size_t object = csv.RequiredColumn("object");
+  const std::size_t iteration = csv.RequiredColumn("iteration");
+  const std::size_t pairs = csv.RequiredColumn("pairs");
   std::vector<PairHistory> histories;
   while (csv.Next()) {
     if (histories.empty() || histories.back().object != csv.Field(object)) {
@@ -143,10 +138,10 @@ struct PerturbedPair {
 std::vector<PerturbedPair> ReadPairs(const fs::path& path) {
   RequireFile(path, "perturb.csv of antigrasp perturb --out FOLDER");
   CsvReader csv(path);
-  const std::size_t object = NeedColumn(csv, path, "object");
-  const std::size_t status = NeedColumn(csv, path, "status");
-  const std::size_t before = NeedColumn(csv, path, "graspability_before");
-  const std::size_t after = NeedColumn(csv, path, "graspability_after");
+  const std::size_t object = csv.RequiredColumn("object");
+  const std::size_t status = csv.RequiredColumn("status");
+  const std::size_t before = csv.RequiredColumn("graspability_before");
+  const std::size_t after = csv.RequiredColumn("graspability_after");
   std::vector<PerturbedPair> pairs;
   while (csv.Next()) {
     const PerturbedPair pair{csv.Field(object), csv.Number(before).value_or(kNone),
@@ -196,7 +191,7 @@ FigureRow PerturbRow(const fs::path& folder, int examples) {
     row.reference.push_back(pair.before);
     row.values.push_back(pair.after);
   }
-  const double mean = MeanOf(row.reference);
+  const double mean = MeanWithInterval(row.reference).mean;
   row.reference = Divided(std::move(row.reference), mean);
   row.values = Divided(std::move(row.values), mean);
   for (const PerturbedPair& pair : MedianPairs(pairs, folder, examples)) {

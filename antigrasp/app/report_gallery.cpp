@@ -94,6 +94,7 @@ class Gallery {
                          const std::vector<ScoreRow>& rows, ReportObject* object) {
     object->numbers.emplace_back("sample", std::to_string(choice.indices[j]));
     object->numbers.emplace_back("chosen", choice.least[j] ? "least graspable" : "at random");
+    object->random = !choice.least[j];
     if (!object->shape.score || rows.empty()) return;
     const double own = object->shape.score->graspability;
     std::int64_t below = 0, usable = 0;
@@ -128,20 +129,22 @@ GalleryChoice ChooseSamples(const std::vector<ScoreRow>& scores, int samples, in
       std::count_if(values.begin(), values.end(), [](double v) { return !std::isnan(v); }));
   const std::int64_t wanted = std::min<std::int64_t>(per_stage, usable);
   const std::int64_t least = scores.empty() ? 0 : (wanted + 1) / 2;
-  const std::vector<std::int64_t> worst = LeastGraspable(values, least);
-  for (const std::int64_t i : worst) values[static_cast<std::size_t>(i)] = std::nan("");
   RngStream rng(seed, "report", static_cast<std::uint64_t>(stage + 1));
   GalleryChoice choice;
   choice.indices = LeastGraspable(RandomOrder(values, &rng), wanted - least);
+  for (const std::int64_t i : choice.indices) values[static_cast<std::size_t>(i)] = std::nan("");
+  const std::vector<std::int64_t> worst = LeastGraspable(values, least);
   choice.indices.insert(choice.indices.end(), worst.begin(), worst.end());
   std::sort(choice.indices.begin(), choice.indices.end());
   for (const std::int64_t i : choice.indices) {
     choice.least.push_back(std::binary_search(worst.begin(), worst.end(), i));
   }
-  const std::string drawn = std::to_string(wanted - least) + " drawn at random";
-  choice.note = scores.empty() ? drawn + " of " + std::to_string(samples)
-                               : "the " + std::to_string(least) + " least graspable and " + drawn +
-                                     " of " + std::to_string(usable) + " usable objects";
+  choice.note = std::to_string(wanted - least) + " drawn at random of " +
+                std::to_string(scores.empty() ? samples : usable) + " " +
+                (scores.empty() ? "samples" : "usable objects");
+  if (least > 0) {
+    choice.note += " and the " + std::to_string(least) + " least graspable of the others";
+  }
   return choice;
 }
 

@@ -12,8 +12,8 @@ struct GalleryChoice {
   std::string note;                   // how they were chosen
 };
 
-// Half of `per_stage` the least graspable of `scores` and half drawn at random from the other
-// usable ones (seeded by stage). Without scores all at random from `samples`.
+// Half of `per_stage` drawn at random from the usable ones of `scores` (seeded by stage) and half
+// the least graspable of the others. Without scores all at random from `samples`.
 GalleryChoice ChooseSamples(const std::vector<ScoreRow>& scores, int samples, int stage,
                             int per_stage, std::uint64_t seed);
 

@@ -44,19 +44,18 @@ ReportScore ScoreAlone(double graspability) {
 
 std::vector<Row> ReadRows(const fs::path& path) {
   CsvReader csv(path);
-  const std::size_t name = RequireColumn(csv, path, "object"),
-                    status = RequireColumn(csv, path, "status"),
-                    before = RequireColumn(csv, path, "graspability_before"),
-                    after = RequireColumn(csv, path, "graspability_after");
+  const std::size_t name = csv.RequiredColumn("object"), status = csv.RequiredColumn("status"),
+                    before = csv.RequiredColumn("graspability_before"),
+                    after = csv.RequiredColumn("graspability_after");
   std::vector<Row> rows;
   while (csv.Next()) {
-    Row row{{}, NumberOrGap(csv, before), NumberOrGap(csv, after)};
+    Row row{{}, csv.NumberOrGap(before), csv.NumberOrGap(after)};
     row.object.name = csv.Field(name);
     row.object.status = csv.Field(status);
     for (const auto& [column_name, label] : kNumbers) {
       const auto column = csv.Column(column_name);
       if (!column) continue;
-      const std::string text = NumberText(NumberOrGap(csv, *column));
+      const std::string text = NumberText(csv.NumberOrGap(*column));
       if (!text.empty()) row.object.numbers.emplace_back(label, text);
     }
     if (!std::isnan(row.after)) row.object.shape.score = ScoreAlone(row.after);

@@ -14,7 +14,8 @@ ReportShape ShapeOf(TriangleMesh mesh, const Graspability& score) {
 std::string NumberText(double value) {
   if (std::isnan(value)) return "";
   char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
+  const bool whole = value == std::floor(value) && std::abs(value) < 1e9;
+  std::snprintf(text, sizeof text, whole ? "%.0f" : "%.4g", value);
   return text;
 }
 

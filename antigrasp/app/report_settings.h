@@ -22,7 +22,7 @@ struct ReportSettings {
 // The mesh with what EvaluateGraspability said about it.
 ReportShape ShapeOf(TriangleMesh mesh, const Graspability& score);
 
-// A number in a person's text, four significant digits; "" for NaN.
+// A number in a person's text: whole, or of four significant digits; "" for NaN.
 std::string NumberText(double value);
 
 // The seed and the metric's constants as `evaluate` and `perturb` write them beside their tables.

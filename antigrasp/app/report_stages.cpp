@@ -20,8 +20,7 @@ namespace fs = std::filesystem;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::string EpisodeText(int episode, bool control) {
-  if (episode < 0) return "prior set";
-  return (control ? "control, episode " : "episode ") + std::to_string(episode);
+  return (control && episode >= 0 ? "control, " : "") + StageName(episode);
 }
 
 ReportStage NewStage(int episode, bool control) {
@@ -82,12 +81,12 @@ ReportLosses ReadLosses(const fs::path& path, int episode, bool control) {
   CsvReader csv(path);
   std::vector<std::size_t> columns;
   for (const char* name : kLossColumns) {
-    columns.push_back(RequireColumn(csv, path, name));
+    columns.push_back(csv.RequiredColumn(name));
     losses.columns.emplace_back(name, std::vector<double>());
   }
   while (csv.Next()) {
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      losses.columns[c].second.push_back(NumberOrGap(csv, columns[c]));
+      losses.columns[c].second.push_back(csv.NumberOrGap(columns[c]));
     }
   }
   return losses;

@@ -1,15 +1,17 @@
 // Figure 4: what a run sampled at every stage.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/figure_inputs.h"
 #include "antigrasp/core/csv_reader.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/figures/histogram.h"
+#include "antigrasp/quality/graspability.h"
 #include "antigrasp/train/cem_run.h"
+#include "antigrasp/train/run_output.h"
 #include "antigrasp/train/stage_samples.h"
 
 namespace antigrasp {
@@ -31,11 +33,8 @@ std::vector<double> ReadGraspabilities(const fs::path& path) {
   std::vector<double> values;
   if (!fs::exists(path)) return values;
   CsvReader csv(path);
-  const auto column = csv.Column("graspability");
-  if (!column) throw InputError("no column graspability", path.string(), "the scores of a stage");
-  while (csv.Next()) {
-    values.push_back(csv.Number(*column).value_or(std::numeric_limits<double>::quiet_NaN()));
-  }
+  const std::size_t column = csv.RequiredColumn("graspability");
+  while (csv.Next()) values.push_back(csv.NumberOrGap(column));
   return values;
 }
 
@@ -67,10 +66,8 @@ std::vector<FigureExample> Examples(const RunFolder& run, const RunConfig& confi
   const std::vector<std::int64_t> indices = FirstUsable(stage.graspabilities, count);
   std::vector<FigureExample> examples(indices.size());
   if (indices.empty() || !fs::exists(source)) return {};
-  const std::string name =
-      stage.episode < 0 ? "prior set" : "episode " + std::to_string(stage.episode);
-  const torch::Tensor values =
-      StageValues(run, config, stage.episode, indices, console->Phase(name + ": sampling"));
+  const torch::Tensor values = StageValues(run, config, stage.episode, indices,
+                                           console->Phase(StageName(stage.episode) + ": sampling"));
   ParallelFor(std::ssize(indices), config.threads, [&](std::int64_t j) {
     const auto slot = static_cast<std::size_t>(j);
     examples[slot].mesh = Remesh(GridOf(values[j], config.model)).mesh;
@@ -91,8 +88,9 @@ RowFigure RunFigure(const fs::path& folder, const std::vector<int>& episodes, in
   config.threads = threads;
   const std::vector<double> first = ReadGraspabilities(ScoresOf(run, 0));
   const std::vector<double> prior = ReadGraspabilities(ScoresOf(run, -1));
-  const bool by_first = std::isfinite(MeanOf(first));
-  const double mean = by_first ? MeanOf(first) : MeanOf(prior);
+  const double of_first = MeanWithInterval(first).mean;
+  const bool by_first = std::isfinite(of_first);
+  const double mean = by_first ? of_first : MeanWithInterval(prior).mean;
   if (!std::isfinite(mean)) {
     throw InputError("no stage has been scored", folder.string(),
                      "a run that has come as far as its prior set");
@@ -104,7 +102,8 @@ RowFigure RunFigure(const fs::path& folder, const std::vector<int>& episodes, in
   figure.axis = "graspability / mean of " + std::string(by_first ? "episode 0" : "the prior set");
   for (const Stage& stage : ReadStages(run, config, episodes)) {
     FigureRow row;
-    row.label = stage.episode < 0 ? "Prior set" : "Episode " + std::to_string(stage.episode);
+    row.label = StageName(stage.episode);
+    row.label[0] = static_cast<char>(std::toupper(row.label[0]));
     row.gap = "not scored";
     row.values = Divided(stage.graspabilities, mean);
     row.reference = Divided(by_first ? first : prior, mean);

@@ -19,12 +19,4 @@ struct ScoreRow {
 // there must be one.
 std::vector<ScoreRow> ReadScores(const std::filesystem::path& path);
 
-// The field of the row as a number; NaN for an empty one. InputError for anything else.
-class CsvReader;
-double NumberOrGap(const CsvReader& csv, std::size_t column);
-
-// The column of this name; InputError when the table has none.
-std::size_t RequireColumn(const CsvReader& csv, const std::filesystem::path& path,
-                          const std::string& name);
-
 }  // namespace antigrasp

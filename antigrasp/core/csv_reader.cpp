@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
@@ -49,6 +50,14 @@ std::optional<std::size_t> CsvReader::Column(std::string_view name) const {
   return found->second;
 }
 
+std::size_t CsvReader::RequiredColumn(std::string_view name) const {
+  const auto column = Column(name);
+  if (!column) {
+    throw InputError("no column " + std::string(name), path_ + ":1", "column " + std::string(name));
+  }
+  return *column;
+}
+
 bool CsvReader::Next() {
   if (!ReadRecord()) return false;
   if (fields_.size() != names_.size()) {
@@ -65,6 +74,15 @@ std::optional<double> CsvReader::Number(std::size_t column) const {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+double CsvReader::NumberOrGap(std::size_t column) const {
+  if (fields_[column].empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto number = Number(column);
+  if (!number) {
+    throw InputError(names_[column] + " = \"" + fields_[column] + "\"", Where(), "a number");
+  }
+  return *number;
 }
 
 std::string CsvReader::Where() const { return path_ + ":" + std::to_string(first_line_); }

@@ -20,11 +20,14 @@ class CsvReader {
 
   const std::vector<std::string>& names() const { return names_; }
   std::optional<std::size_t> Column(std::string_view name) const;
+  std::size_t RequiredColumn(std::string_view name) const;  // InputError when there is none
 
   bool Next();  // to the next row; false behind the last
   const std::string& Field(std::size_t column) const { return fields_[column]; }
   // The field without blanks around it as a number; nullopt when it is none. "nan" and "inf" are.
   std::optional<double> Number(std::size_t column) const;
+  // The same; NaN for an empty field, InputError for one that is no number.
+  double NumberOrGap(std::size_t column) const;
   std::string Where() const;  // "file:line" of the row's first line
 
  private:

@@ -40,17 +40,6 @@ Histogram MakeHistogram(const std::vector<double>& values, double low, double hi
   return histogram;
 }
 
-double MeanOf(const std::vector<double>& values) {
-  double sum = 0.0;
-  int count = 0;
-  for (const double value : values) {
-    if (std::isnan(value)) continue;
-    sum += value;
-    ++count;
-  }
-  return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
-}
-
 std::vector<double> Divided(std::vector<double> values, double divisor) {
   for (double& value : values) value /= divisor;
   return values;

@@ -20,8 +20,6 @@ struct Histogram {
 // CHECK: bins > 0 and low < high, finite.
 Histogram MakeHistogram(const std::vector<double>& values, double low, double high, int bins);
 
-// Mean of the numbers among the values, NaN when there are none.
-double MeanOf(const std::vector<double>& values);
 // values / divisor.
 std::vector<double> Divided(std::vector<double> values, double divisor);
 

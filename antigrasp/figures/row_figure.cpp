@@ -6,6 +6,7 @@
 
 #include "antigrasp/core/parallel.h"
 #include "antigrasp/figures/plot.h"
+#include "antigrasp/quality/graspability.h"
 
 namespace antigrasp {
 namespace {
@@ -124,7 +125,8 @@ void DrawDistribution(Canvas* canvas, const Area& area, const FigureRow& row,
     canvas->Text(row.gap, {right, area.y + 8.0}, {7.0, kMuted, Align::kRight});
     return;
   }
-  const double mean = MeanOf(row.values), of_reference = MeanOf(row.reference);
+  const double mean = MeanWithInterval(row.values).mean;
+  const double of_reference = MeanWithInterval(row.reference).mean;
   plot.DrawBars(values, kBars);
   if (!row.reference.empty()) plot.DrawOutline(all.reference[index], kInk.WithAlpha(0.55), 0.7);
   plot.DrawMark(of_reference, kInk.WithAlpha(0.55), 0.6, {1.2, 1.8});

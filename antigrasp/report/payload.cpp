@@ -120,6 +120,7 @@ void AddShape(const ReportShape& shape, const EncodedShape& encoded, Blob* blob,
 Json ObjectJson(const ReportObject& object, const EncodedObject& encoded, Blob* blob) {
   Json json = {{"name", object.name}, {"group", object.group}};
   if (object.elite) json["elite"] = *object.elite;
+  if (!object.random) json["random"] = false;
   json["status"] = object.status;
   AddShape(object.shape, encoded.shape, blob, &json);
   if (object.original) {

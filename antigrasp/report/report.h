@@ -50,6 +50,7 @@ struct ReportObject {
   std::string name;
   std::size_t group = 0;      // index into Report::groups
   std::optional<bool> elite;  // of a run's samples
+  bool random = true;         // not picked by its score
   std::string status;         // "ok", or any words
   ReportShape shape;
   std::optional<ReportOriginal> original;

@@ -12,16 +12,13 @@
 namespace antigrasp {
 namespace {
 
-// Samples are always drawn in whole, aligned blocks of this size, so that the bits of sample i do
-// not depend on how many are asked for.
-constexpr std::int64_t kBlock = 32;
 constexpr std::int64_t kStatisticsBlocks = 32;  // 1,024 samples: a channel's mean to 3 % of its sd
 
 torch::Tensor LatentBlock(const LatentMixture& mixture, std::uint64_t seed, std::string_view domain,
                           std::int64_t block) {
   std::vector<torch::Tensor> rows;
-  for (std::int64_t i = 0; i < kBlock; ++i) {
-    RngStream rng(seed, domain, static_cast<std::uint64_t>(block * kBlock + i));
+  for (std::int64_t i = 0; i < kSampleBlock; ++i) {
+    RngStream rng(seed, domain, static_cast<std::uint64_t>(block * kSampleBlock + i));
     rows.push_back(DrawLatent(mixture, &rng));
   }
   return torch::stack(rows);
@@ -34,9 +31,9 @@ torch::Tensor OfBlocks(std::int64_t first, std::int64_t count, torch::Tensor emp
                        const OfBlock& of_block) {
   AG_CHECK(first >= 0 && count >= 0, "samples are numbered from 0");
   std::vector<torch::Tensor> parts = {std::move(empty)};
-  for (std::int64_t block = first / kBlock; block * kBlock < first + count; ++block) {
-    const std::int64_t begin = std::max<std::int64_t>(first - block * kBlock, 0);
-    const std::int64_t end = std::min(first + count - block * kBlock, kBlock);
+  for (std::int64_t block = first / kSampleBlock; block * kSampleBlock < first + count; ++block) {
+    const std::int64_t begin = std::max<std::int64_t>(first - block * kSampleBlock, 0);
+    const std::int64_t end = std::min(first + count - block * kSampleBlock, kSampleBlock);
     parts.push_back(of_block(block).slice(0, begin, end).cpu());
   }
   return torch::cat(parts);

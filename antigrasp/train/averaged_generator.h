@@ -9,6 +9,10 @@
 
 namespace antigrasp {
 
+// Samples are always drawn in whole, aligned blocks of this size, so that the bits of sample i do
+// not depend on how many are asked for.
+inline constexpr std::int64_t kSampleBlock = 32;
+
 // z of sample `first + i` of stream `seed`, i in [0, count): [count, latent] float32 on the CPU.
 // Sample i does not depend on count.
 torch::Tensor SampleLatents(const LatentMixture& latent, std::uint64_t seed, std::int64_t first,

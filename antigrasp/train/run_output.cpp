@@ -28,8 +28,12 @@ std::string KappaText(const StageStatistics& row, const std::vector<StageStatist
 
 }  // namespace
 
+std::string StageName(int episode) {
+  return episode < 0 ? "prior set" : "episode " + std::to_string(episode);
+}
+
 std::string StageName(int episode, const std::string& doing) {
-  return "episode " + std::to_string(episode) + ": " + doing;
+  return StageName(episode) + ": " + doing;
 }
 
 LossRow RowOf(std::int64_t step, const StepReport& r, double largest_sigma) {

@@ -16,6 +16,7 @@ namespace antigrasp {
 
 // What a run writes and says beside its checkpoints.
 
+std::string StageName(int episode);                            // "episode 1"; -1: "prior set"
 std::string StageName(int episode, const std::string& doing);  // "episode 1: scoring"
 
 // A row of episode_K/losses.csv: the step within the episode, then a StepReport in its order, then

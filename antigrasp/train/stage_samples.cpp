@@ -2,16 +2,16 @@
 
 #include <torch/torch.h>
 
+#include <map>
+
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/train/averaged_generator.h"
 #include "antigrasp/train/episode_loop.h"
+#include "antigrasp/train/run_output.h"
 
 namespace antigrasp {
 namespace {
-
-std::string StageText(int stage) {
-  return stage < 0 ? "prior set" : "episode " + std::to_string(stage);
-}
 
 torch::Tensor PriorValues(const RunFolder& run, const RunConfig& config,
                           const std::vector<std::int64_t>& indices) {
@@ -32,13 +32,24 @@ torch::Tensor SampledValues(const RunFolder& run, RunConfig config, int stage,
   config.device = "cpu";
   GanTrainer trainer = MakeTrainer(config);
   ReadNetworks(run.EpisodeCheckpoint(stage), [&](auto* archive) { trainer.LoadNetworks(archive); });
-  std::vector<torch::Tensor> values;
-  for (const std::int64_t i : indices) {
-    if (i < 0) throw InputError("sample " + std::to_string(i), run.root.string(), "0 or more");
-    values.push_back(trainer.Sample(StageSeed(config, stage), i, 1));
-    if (progress) progress(static_cast<std::int64_t>(values.size()), std::ssize(indices));
+  // The generator draws whole blocks, so every block is asked for once.
+  std::map<std::int64_t, std::vector<std::size_t>> places;  // of the wanted samples of a block
+  for (std::size_t j = 0; j < indices.size(); ++j) {
+    if (indices[j] < 0) {
+      throw InputError("sample " + std::to_string(indices[j]), run.root.string(), "0 or more");
+    }
+    places[indices[j] / kSampleBlock].push_back(j);
   }
-  return torch::cat(values);
+  std::vector<torch::Tensor> values(indices.size());
+  std::int64_t drawn = 0;
+  for (const auto& [block, wanted] : places) {
+    const torch::Tensor samples =
+        trainer.Sample(StageSeed(config, stage), block * kSampleBlock, kSampleBlock);
+    for (const std::size_t j : wanted) values[j] = samples[indices[j] % kSampleBlock];
+    drawn += std::ssize(wanted);
+    if (progress) progress(drawn, std::ssize(indices));
+  }
+  return torch::stack(values);
 }
 
 }  // namespace
@@ -57,7 +68,7 @@ std::vector<ScoredSample> StageSamples(const RunFolder& run, const RunConfig& co
                                        const std::vector<std::int64_t>& indices,
                                        RunObserver* observer) {
   const torch::Tensor values =
-      StageValues(run, config, stage, indices, observer->Phase(StageText(stage) + ": sampling"));
+      StageValues(run, config, stage, indices, observer->Phase(StageName(stage, "sampling")));
   std::vector<ScoredSample> samples(indices.size());
   ParallelFor(
       std::ssize(indices), config.threads,
@@ -65,7 +76,7 @@ std::vector<ScoredSample> StageSamples(const RunFolder& run, const RunConfig& co
         const auto slot = static_cast<std::size_t>(j);
         samples[slot] = ScoreSample(values[j], indices[slot], config);
       },
-      observer->Phase(StageText(stage) + ": scoring"));
+      observer->Phase(StageName(stage, "scoring")));
   return samples;
 }
 

@@ -17,8 +17,7 @@ namespace antigrasp {
 // on the CPU: samples of a run on another device differ in their last bits.
 
 // Network values [indices.size(), 1, n, n, n] of the samples of these indices, in this order.
-// InputError when the stage's file is missing or unusable, or has no shape of an index. About 30 ms
-// a sample at width 32, one thread.
+// InputError when the stage's file is missing or unusable, or has no shape of an index.
 torch::Tensor StageValues(const RunFolder& run, const RunConfig& config, int stage,
                           const std::vector<std::int64_t>& indices,
                           const ProgressFn& progress = nullptr);

@@ -190,6 +190,8 @@ TEST(ReportCli, ShowsARunWithItsChartsAndTheObjectsItScored) {
     EXPECT_FALSE(object["mesh"].is_null());
     const bool of_prior = object["name"].get<std::string>().starts_with("cylinders-");
     EXPECT_EQ(of_prior, group == 0) << object["name"];
+    const bool picked = object["numbers"][1][1] == "least graspable";
+    EXPECT_EQ(object.value("random", true), !picked) << object["numbers"][1][1];
     elites += object.value("elite", false) ? 1 : 0;
     EXPECT_EQ(object.contains("elite"), group > 0);
     for (const auto& [name, score] : scores) {

@@ -42,9 +42,7 @@ TEST(Histogram, RefusesARangeWithoutExtent) {
   EXPECT_THROW(MakeHistogram({1.0}, 0.0, 1.0, 0), std::logic_error);
 }
 
-TEST(Histogram, AMeanLeavesOutWhatIsNoNumber) {
-  EXPECT_EQ(MeanOf({1.0, kNone, 3.0}), 2.0);
-  EXPECT_TRUE(std::isnan(MeanOf({kNone})));
+TEST(Histogram, ValuesAreDividedOneByOne) {
   EXPECT_EQ(Divided({1.0, 3.0}, 2.0), (std::vector<double>{0.5, 1.5}));
 }
 

@@ -54,6 +54,8 @@ export interface ObjectRecord extends Shape {
   group: number;
   status: string;
   elite?: boolean;
+  /** Absent: true. False: picked by its score. */
+  random?: boolean;
   pair?: Pair | null;
   numbers?: [string, string][];
   print?: PrintCheck | null;

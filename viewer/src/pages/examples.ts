@@ -24,7 +24,7 @@ const MOST = 10; // pictures in a row
 const WIDTH = 96; // of a picture at least, pixels
 
 // A run's gallery holds the least graspable objects too, which would flatter a stage.
-const atRandom = (o: ObjectRecord) => !o.numbers?.some(([label, text]) => label === "chosen" && text !== "at random");
+const atRandom = (o: ObjectRecord) => o.random !== false;
 
 /** What can be shown, in the order of the report: examples are picked neither for looks nor for scores. */
 function usable(report: Report, group?: number): number[] {
@@ -124,7 +124,7 @@ export function exampleFigure(
     h(
       "p",
       { class: "note" },
-      `${report.kind === "run" ? "Of every stage objects drawn at random, the very least graspable left out" : "The first objects, not selected"}; below each its graspability, ${MILLI_UNIT}.`,
+      `${report.kind === "run" ? "Of every stage objects drawn at random" : "The first objects, not selected"}; below each its graspability, ${MILLI_UNIT}.`,
     ),
   );
   return {
