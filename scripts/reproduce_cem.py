@@ -32,7 +32,7 @@ def table(results):
         for episode in sorted({0, EPISODES // 2, max(rows)} & set(rows)):
             row, seen = rows[episode], surfaces(folder, episode)
             beside = shown(ratio(row, control[episode])) if way != "control" and episode in control and episode else "-"
-            nearest = f"{seen['nearest_training'][0]:.3f}" if "nearest_training" in seen else "-"
+            nearest = f"{seen['nearest_reference'][0]:.3f}" if seen else "-"
             lines.append(f"| {way} | {episode} | {shown(ratio(row, rows[-1]))} | {beside} "
                          f"| {1 - int(row['ok']) / int(row['samples']):.0%} | {surface_cells(seen)} | {nearest} |")
     return "\n".join(lines)
@@ -61,7 +61,7 @@ def curves(path, folders):
 
 def refresh(way, folder):
     for episode in {0, EPISODES // 2, max(rows_of(folder))}:
-        compare(folder, episode, KIND, folder.parent, copies=True)
+        compare(folder, episode, KIND, folder.parent)
     keep(folder, results_of(way))
 
 

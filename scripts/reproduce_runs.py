@@ -57,16 +57,15 @@ def held_out(kind, out, count, seed):
     return file
 
 
-def compare(folder, episode, kind, out, copies=False):
-    """Compares an episode's samples with held-out shapes on their surfaces, unless that is done; `copies`: with its training set too."""
+def compare(folder, episode, kind, out):
+    """Compares an episode's samples with held-out shapes on their surfaces, unless that is done."""
     result = folder / f"episode_{episode}" / "compare.csv"
     if result.exists() or not (result.parent / "scores.csv").exists():
         return
     samples = out / f"samples-{folder.name}-{episode}.h5"
     print(f"comparing {folder}, episode {episode}", flush=True)
     call("sample", folder / f"episode_{episode}/checkpoint.pt", "--count", int(1.6 * COMPARED), "--seed", SAMPLE_SEED, "--out", samples)
-    training = ["--train", folder / "prior.h5"] if copies else []
-    call("compare", samples, held_out(kind, out, COMPARED, 2), *training, "--count", COMPARED, "--out", result)
+    call("compare", samples, held_out(kind, out, COMPARED, 2), "--count", COMPARED, "--out", result)
     samples.unlink()
 
 
