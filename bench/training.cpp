@@ -163,7 +163,7 @@ void CompareDevices() {
         for (int i = 0; i < steps; ++i) trainer->Step(shapes);
       };
       work();
-      contenders.push_back({name, work, steps});
+      contenders.push_back({name, work, static_cast<double>(steps)});
     }
     const std::vector<double> seconds = MedianSeconds(contenders, 3);
     const std::string name = "device_step_width" + std::to_string(width) + "_";
