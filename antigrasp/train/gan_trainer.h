@@ -40,8 +40,8 @@ class GanTrainer {
   void BeginFixedEpisode(int episode, const LatentMixture& latent);
 
   // One update of D (discriminator_steps of them) and of G. `shapes`: [N, 1, 32, 32, 32] float16 or
-  // float32 network values, fastest on the trainer's own device. A loss or gradient that is not finite: RuntimeFailure before
-  // it reaches the weights.
+  // float32 network values, fastest on the trainer's own device. A loss or gradient that is not
+  // finite: RuntimeFailure before it reaches the weights.
   StepReport Step(const torch::Tensor& shapes);
 
   // The largest singular value of a discriminator's weight, undivided; nan without spectral norm.
