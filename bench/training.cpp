@@ -1,7 +1,9 @@
 // Training and sampling against the same networks written the plain way (plain_gan.h) and against
 // PyTorch (training_peer.py), in one run: `ratio NAME VALUE`, above 1 = times as fast as the other.
 #include <malloc.h>
-#include <torch/torch.h>
+#include <torch/cuda.h>
+#include <torch/types.h>
+#include <torch/utils.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 #include "antigrasp/checkpoints/checkpoint.h"
 
-#include <torch/torch.h>
+#include <torch/serialize/archive.h>
+#include <torch/types.h>
 
 #include <sstream>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <torch/torch.h>
+#include <torch/nn/options/batchnorm.h>
+#include <torch/types.h>
 
 #include <type_traits>
 #include <utility>

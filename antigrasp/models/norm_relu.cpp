@@ -1,6 +1,7 @@
 #include "antigrasp/models/norm_relu.h"
 
 #include <ATen/Parallel.h>
+#include <torch/csrc/autograd/custom_function.h>
 
 #include <algorithm>
 #include <cmath>

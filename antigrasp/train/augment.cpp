@@ -1,6 +1,6 @@
 #include "antigrasp/train/augment.h"
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <vector>
 

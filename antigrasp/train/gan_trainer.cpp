@@ -1,5 +1,8 @@
 #include "antigrasp/train/gan_trainer.h"
 
+#include <torch/autograd.h>
+#include <torch/utils.h>
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>

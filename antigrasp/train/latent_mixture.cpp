@@ -1,6 +1,6 @@
 #include "antigrasp/train/latent_mixture.h"
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <cmath>
 

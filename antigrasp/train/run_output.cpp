@@ -1,7 +1,7 @@
 #include "antigrasp/train/run_output.h"
 
 #include <spdlog/spdlog.h>
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "antigrasp/train/similarity.h"
 
-#include <torch/torch.h>
+#include <torch/types.h>
+#include <torch/utils.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "antigrasp/train/stage.h"
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "antigrasp/train/stage_samples.h"
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <map>
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
-#include <torch/torch.h>
+#include <torch/autograd.h>
+#include <torch/types.h>
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/models/discriminator.h"

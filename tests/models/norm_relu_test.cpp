@@ -1,7 +1,10 @@
 #include "antigrasp/models/norm_relu.h"
 
+#include <ATen/Parallel.h>
 #include <gtest/gtest.h>
-#include <torch/torch.h>
+#include <torch/autograd.h>
+#include <torch/types.h>
+#include <torch/utils.h>
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/models/libtorch.h"

@@ -1,7 +1,8 @@
 #include "antigrasp/train/gan_trainer.h"
 
 #include <gtest/gtest.h>
-#include <torch/torch.h>
+#include <torch/serialize/archive.h>
+#include <torch/types.h>
 
 #include <limits>
 #include <sstream>

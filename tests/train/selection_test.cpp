@@ -1,7 +1,7 @@
 #include "antigrasp/train/selection.h"
 
 #include <gtest/gtest.h>
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <algorithm>
 #include <set>

@@ -1,7 +1,7 @@
 #include "antigrasp/train/stage_samples.h"
 
 #include <gtest/gtest.h>
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include "antigrasp/core/csv_reader.h"
 #include "antigrasp/core/error.h"

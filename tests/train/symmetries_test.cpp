@@ -1,7 +1,7 @@
 #include "antigrasp/train/symmetries.h"
 
 #include <gtest/gtest.h>
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include <set>
 
