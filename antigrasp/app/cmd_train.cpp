@@ -27,6 +27,7 @@ struct TrainFlags {
   std::string device;
   std::string mode;
   std::string start;
+  bool fine_tune = false;
   bool from_scratch = false;
   bool or_resume = false;
   bool overwrite = false;
@@ -50,7 +51,11 @@ RunConfig ReadConfig(const TrainFlags& flags) {
   if (!flags.device.empty()) config.device = flags.device;
   if (!flags.mode.empty()) table.ApplyValue("cem.mode", flags.mode, "--mode");
   if (!flags.start.empty()) config.start = flags.start;
-  if (flags.from_scratch) config.start.clear();
+  if (flags.fine_tune) config.fine_tune = true;
+  if (flags.from_scratch) {
+    config.start.clear();
+    config.fine_tune = false;
+  }
   Validate(config, flags.config.empty() ? "configuration" : flags.config);
   return config;
 }
@@ -117,6 +122,8 @@ void AddTrainCommand(CLI::App* app) {
   command->add_option("--mode", flags->mode, "same as --set cem.mode=: gan or latent");
   CLI::Option* from = command->add_option(
       "--from", flags->start, "same as --set run.start=, and takes model.* from these networks");
+  command->add_flag("--fine-tune", flags->fine_tune,
+                    "train the networks of --from on in episode 0: same as run.fine_tune=true");
   command->add_flag("--from-scratch", flags->from_scratch, "train episode 0: no run.start")
       ->excludes(from);
   command->callback([flags] { Train(*flags); });

@@ -1,7 +1,8 @@
 #include "antigrasp/train/episode_loop.h"
 
 #include <spdlog/spdlog.h>
-#include <torch/torch.h>
+#include <torch/cuda.h>
+#include <torch/types.h>
 
 #include <chrono>
 #include <cmath>
@@ -103,7 +104,11 @@ void EpisodeLoop::Restore() {
     } else {
       ReadNetworks(FindNetworks(config_.start),
                    [&](auto* archive) { trainer_.LoadNetworks(archive); });
-      trainer_.BeginFixedEpisode(0, trainer_.latent());
+      if (config_.fine_tune) {
+        trainer_.BeginEpisode(0, config_.cem.prior_iterations, /*restart_networks=*/false);
+      } else {
+        trainer_.BeginFixedEpisode(0, trainer_.latent());
+      }
     }
     return;
   }
@@ -243,7 +248,8 @@ void EpisodeLoop::BeginEpisode(int episode, const ScoredStage& scored, const Sel
 }
 
 std::int64_t EpisodeLoop::UpdatesSoFar() const {
-  const std::int64_t first = config_.start.empty() ? config_.cem.prior_iterations : 0;
+  const bool trained = config_.start.empty() || config_.fine_tune;
+  const std::int64_t first = trained ? config_.cem.prior_iterations : 0;
   const std::int64_t later = config_.cem.mode == "latent" ? 0 : config_.cem.iterations;
   return (episode() == 0 ? 0 : first + (episode() - 1LL) * later) + trainer_.step();
 }

@@ -45,6 +45,8 @@ void Bind(OptionTable* table, RunConfig* c) {
   table->Add("run.stl_size_mm", &c->stl_size_mm, 1, 10000, "their largest extent, mm");
   table->Add("run.start", &c->start, {},
              "checkpoint or name of pretrained networks in place of training episode 0");
+  table->Add("run.fine_tune", &c->fine_tune,
+             "train the networks of run.start on in episode 0, cem.prior_iterations updates");
   table->Add("prior.file", &c->prior_file, {}, "SDF file of the prior set; empty = make one");
   table->Add("prior.kind", &c->prior.kind, {"cylinders", "prisms", "bottles"}, "set to make");
   table->Add("prior.count", &c->prior.count, 1, 1e6, "shapes to make");
@@ -81,6 +83,9 @@ RunConfig NetworksFromToml(const std::string& toml, const std::string& origin) {
 }
 
 void Validate(const RunConfig& config, const std::string& origin) {
+  if (config.fine_tune && config.start.empty()) {
+    throw InputError("run.fine_tune without run.start", origin, "networks to start from (--from)");
+  }
   if (config.cem.keep > config.cem.samples) {
     throw InputError("cem.keep = " + std::to_string(config.cem.keep), origin,
                      "at most cem.samples = " + std::to_string(config.cem.samples));

@@ -44,6 +44,7 @@ struct RunConfig {
   int torch_threads = 0;       // of LibTorch; 0 = threads; training repeats at the same number
   std::string device = "cpu";  // cpu, cuda, cuda:1
   std::string start;  // networks to begin with: checkpoint or name of pretrained ones; no episode 0
+  bool fine_tune = false;  // but they are trained on in episode 0
   std::string prior_file;  // an SDF file instead of a synthetic set
   PriorSetOptions prior;
   int stl_count = 10;         // least graspable objects exported at the end

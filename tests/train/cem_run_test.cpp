@@ -184,6 +184,27 @@ TEST(CemRun, BeginsWithGivenNetworksInsteadOfTrainingThem) {
   EXPECT_FALSE(fs::exists(folder / "other"));
 }
 
+TEST(CemRun, TrainsGivenNetworksOnWhereFineTuningIsAskedFor) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  RunConfig config = Tiny();
+  config.cem.episodes = 0;
+  const RunResult prior = StartRun(config, folder / "prior", &observer);
+  config.start = (folder / "prior").string();
+  config.fine_tune = true;
+  const RunResult tuned = StartRun(config, folder / "tuned", &observer);
+  EXPECT_NE(tuned.stages[1].graspability.mean, prior.stages[1].graspability.mean);
+  const std::string losses = ReadFile(folder / "tuned" / "episode_0" / "losses.csv");
+  EXPECT_NE(losses, ReadFile(folder / "prior" / "episode_0" / "losses.csv"));
+  EXPECT_NE(losses.find("\n" + std::to_string(config.cem.prior_iterations) + ","),
+            std::string::npos)
+      << losses;
+
+  config.start.clear();
+  EXPECT_THROW(StartRun(config, folder / "other", &observer), InputError);
+  EXPECT_FALSE(fs::exists(folder / "other"));
+}
+
 TEST(CemRun, StratifiedElitesGiveEqualBytesTwice) {
   const TempFolder folder;
   StoppingObserver observer;
