@@ -19,7 +19,7 @@ class Run:
 
 RUNS = [Run("cylinders", "cylinders", 3, 22),
         Run("prisms", "prisms", 4, 36, config=WIDE, start="prisms-prior"),
-        Run("bottles", "bottles", 5, 17, config=WIDE, start="bottles-prior"),
+        Run("bottles", "bottles", 5, 17, config="configs/reproduction_bottles.toml", start="bottles-prior"),
         Run("cylinders-no-spectral-norm", "cylinders", 5, 83, ["model.spectral_norm=false"])]
 
 
@@ -103,7 +103,7 @@ def main():
     parser = argparse.ArgumentParser(prog="scripts/reproduce gan")
     parser.add_argument("--only", choices=[run.name for run in RUNS], help="one run; several calls may run side by side")
     parser.add_argument("--report", action="store_true", help="train nothing; write what there is into the document")
-    parser.add_argument("--from-scratch", action="store_true", help="train episode 0 of every set (wide ones: an hour on a core)")
+    parser.add_argument("--from-scratch", action="store_true", help="train episode 0 of every set (prisms and bottles: an hour on a core)")
     parser.add_argument("--device", default="cpu", help="of the networks: cpu, cuda")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("runs/gan"), help="folder of the runs")
     arguments = parser.parse_args()

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "antigrasp/core/error.h"
 
 namespace antigrasp {
@@ -42,14 +44,25 @@ TEST(RunConfig, HoldsThePapersNumbersByDefault) {
 }
 
 TEST(RunConfig, TheShippedFilesAreValid) {
-  for (const char* name : {"paper", "demo", "smoke", "reproduction"}) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(ANTIGRASP_CONFIGS)) {
     RunConfig config;
     OptionTable table;
     Bind(&table, &config);
-    const std::string path = std::string(ANTIGRASP_CONFIGS) + "/" + name + ".toml";
-    table.ApplyFile(path);
-    Validate(config, path);
+    const std::string path = entry.path().string();
+    EXPECT_NO_THROW(table.ApplyFile(path)) << path;
+    EXPECT_NO_THROW(Validate(config, path)) << path;
+    ++files;
   }
+  EXPECT_GE(files, 6);
+}
+
+TEST(RunConfig, RefusesToTrainOnNetworksThatAreNotGiven) {
+  RunConfig config;
+  config.fine_tune = true;
+  EXPECT_THROW(Validate(config, "x"), InputError);
+  config.start = "bottles-prior";
+  EXPECT_NO_THROW(Validate(config, "x"));
 }
 
 TEST(RunConfig, RefusesToKeepMoreThanItSamples) {
