@@ -19,7 +19,7 @@ class Run:
 
 RUNS = [Run("cylinders", "cylinders", 3, 22),
         Run("prisms", "prisms", 4, 36, config=WIDE, start="prisms-prior"),
-        Run("bottles", "bottles", 5, 17, config="configs/reproduction_bottles.toml", start="bottles-prior"),
+        Run("bottles", "bottles", 5, 17, config=WIDE, start="bottles-prior"),
         Run("cylinders-no-spectral-norm", "cylinders", 5, 83, ["model.spectral_norm=false"])]
 
 
