@@ -160,13 +160,19 @@ TEST(CemRun, LatentModeGivesEqualBytesAfterAnyInterruption) {
   }
 }
 
-TEST(CemRun, BeginsWithGivenNetworksInsteadOfTrainingThem) {
-  const TempFolder folder;
+// A run of episode 0 alone, to begin others with.
+RunResult TrainPrior(const fs::path& run) {
   StoppingObserver observer;
   RunConfig config = Tiny();
   config.cem.episodes = 0;
-  const RunResult prior = StartRun(config, folder / "prior", &observer);
-  config = Tiny();
+  return StartRun(config, run, &observer);
+}
+
+TEST(CemRun, BeginsWithGivenNetworksInsteadOfTrainingThem) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  const RunResult prior = TrainPrior(folder / "prior");
+  RunConfig config = Tiny();
   config.start = (folder / "prior").string();
   const RunResult result = StartRun(config, folder / "run", &observer);
   ASSERT_EQ(result.stages.size(), 4U);
@@ -187,9 +193,9 @@ TEST(CemRun, BeginsWithGivenNetworksInsteadOfTrainingThem) {
 TEST(CemRun, TrainsGivenNetworksOnWhereFineTuningIsAskedFor) {
   const TempFolder folder;
   StoppingObserver observer;
+  const RunResult prior = TrainPrior(folder / "prior");
   RunConfig config = Tiny();
   config.cem.episodes = 0;
-  const RunResult prior = StartRun(config, folder / "prior", &observer);
   config.start = (folder / "prior").string();
   config.fine_tune = true;
   const RunResult tuned = StartRun(config, folder / "tuned", &observer);
