@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "antigrasp/core/check.h"
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/libtorch.h"
 #include "antigrasp/models/norm_relu.h"
@@ -95,6 +96,25 @@ void GeneratorImpl::RestartStatistics() {
       norm->reset_running_stats();
     }
   }
+}
+
+void GeneratorImpl::TakeFolded(const GeneratorImpl& other) {
+  AG_CHECK(other.options_.batch_norm && !options_.batch_norm && options_.block == "plain" &&
+               options_.width == other.options_.width && options_.latent == other.options_.latent,
+           "batch norm is folded into networks of equal shape without it");
+  torch::NoGradGuard no_grad;
+  for (std::size_t i = 0; i < other.norms_.size(); ++i) {
+    const torch::nn::BatchNorm3d& norm = other.norms_[i];
+    const torch::Tensor scale = norm->weight / (norm->running_var + norm->options.eps()).sqrt();
+    biases_[i].copy_((norm->bias - norm->running_mean * scale).view({-1, 1, 1, 1}));
+    if (i == 0) {  // rows of the linear layer: 2^3 nodes of a channel, then the next channel's
+      project_->weight.copy_(other.project_->weight * scale.repeat_interleave(8).view({-1, 1}));
+    } else {
+      up_weights_[i - 1].copy_(other.up_weights_[i - 1] * scale.view({-1, 1, 1, 1}));
+    }
+  }
+  last_weight_.copy_(other.last_weight_);
+  last_bias_.copy_(other.last_bias_);
 }
 
 torch::Tensor GeneratorImpl::Activate(std::size_t layer, const torch::Tensor& x) {

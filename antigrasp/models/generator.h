@@ -29,6 +29,12 @@ class GeneratorImpl : public torch::nn::Module {
   // equal weight: run some batches, then eval() samples with them.
   void RestartStatistics();
 
+  // Takes the function that `other` has in evaluation, with its batch statistics, into these
+  // networks without batch norm, of equal shape and plain blocks: its scales go into the weights
+  // before them, its shifts into the biases. Training then goes on without the noise that a batch's
+  // own statistics are.
+  void TakeFolded(const GeneratorImpl& other);
+
   const ModelOptions& options() const { return options_; }
 
  private:

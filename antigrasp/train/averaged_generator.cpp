@@ -74,6 +74,11 @@ void AveragedGenerator::Follow(const Generator& source, double decay) {
   statistics_stale_ = true;
 }
 
+void AveragedGenerator::TakeFolded(AveragedGenerator* other) {
+  other->RefreshStatistics();
+  network_->TakeFolded(*other->network_);
+}
+
 torch::Tensor AveragedGenerator::Sample(const LatentMixture& latent, std::uint64_t seed,
                                         std::int64_t first, std::int64_t count) {
   torch::NoGradGuard no_grad;

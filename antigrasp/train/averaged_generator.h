@@ -28,6 +28,9 @@ class AveragedGenerator {
   // weights = decay * weights + (1 - decay) * source's. 0 copies.
   void Follow(const Generator& source, double decay);
 
+  // Takes the function of `other`, which has batch norm, where this one has none.
+  void TakeFolded(AveragedGenerator* other);
+
   // Network values [count, 1, 32, 32, 32] float32 on the CPU of SampleLatents(...).
   torch::Tensor Sample(const LatentMixture& latent, std::uint64_t seed, std::int64_t first,
                        std::int64_t count);

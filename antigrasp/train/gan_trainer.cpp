@@ -290,10 +290,16 @@ void GanTrainer::LoadNetworks(torch::serialize::InputArchive* archive) {
   ReadTensors(networks, "checkpoint", archive);
   impl_->latent = mixture;
   impl_->SetProgress(progress);
-  torch::NoGradGuard no_grad;
-  const auto from = impl_->average.network()->parameters();
-  auto to = impl_->generator->parameters();
-  for (std::size_t i = 0; i < to.size(); ++i) to[i].copy_(from[i]);
+  CopyModule(*impl_->average.network(), *impl_->generator);
+}
+
+void GanTrainer::TakeFolded(GanTrainer* other) {
+  Impl &t = *impl_, &from = *other->impl_;
+  t.average.TakeFolded(&from.average);
+  CopyModule(*t.average.network(), *t.generator);
+  CopyModule(*from.discriminator, *t.discriminator);
+  t.latent = from.latent;
+  t.SetProgress(from.Progress());
 }
 
 void GanTrainer::Save(torch::serialize::OutputArchive* archive) const {

@@ -74,6 +74,10 @@ class GanTrainer {
   void SaveNetworks(torch::serialize::OutputArchive* archive) const;
   void LoadNetworks(torch::serialize::InputArchive* archive);
 
+  // Takes the networks of `other`, which has batch norm, where this one has none but is otherwise
+  // like it (GeneratorImpl::TakeFolded): the same samples up to rounding.
+  void TakeFolded(GanTrainer* other);
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

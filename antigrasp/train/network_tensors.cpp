@@ -28,4 +28,12 @@ void AppendMixture(const std::string& prefix, const LatentMixture& mixture, Name
   out->emplace_back(prefix + "deviations", mixture.deviations);
 }
 
+void CopyModule(const torch::nn::Module& from, const torch::nn::Module& to) {
+  torch::NoGradGuard no_grad;
+  NamedTensors source, target;
+  AppendModule("", from, &source);
+  AppendModule("", to, &target);
+  for (std::size_t i = 0; i < source.size(); ++i) target[i].second.copy_(source[i].second);
+}
+
 }  // namespace antigrasp

@@ -15,4 +15,7 @@ void AppendModule(const std::string& prefix, const torch::nn::Module& module, Na
 void AppendAdam(const std::string& prefix, const Adam& adam, NamedTensors* out);
 void AppendMixture(const std::string& prefix, const LatentMixture& mixture, NamedTensors* out);
 
+// Copies the parameters and buffers of a module into another of the same shape.
+void CopyModule(const torch::nn::Module& from, const torch::nn::Module& to);
+
 }  // namespace antigrasp

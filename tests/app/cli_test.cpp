@@ -344,6 +344,21 @@ TEST(Cli, ARunCanBeKilledResumedSampledAndExported) {
   for (std::size_t i = 0; i < exact.grids[4].values.size(); ++i) {
     ASSERT_NEAR(exact.grids[4].values[i], rounded.grids[4].values[i], 5e-3) << i;
   }
+  // The same without batch normalisation, and good to train on.
+  ASSERT_EQ(
+      Antigrasp("generator " + dir + "whole --fold-batch-norm --out " + dir + "folded.pt").code, 0);
+  ASSERT_EQ(Antigrasp("sample " + dir + "folded.pt --count 5 --seed 7 --out " + dir + "f.h5").code,
+            0);
+  const ShapeSet folded = ReadShapeSet(folder / "f.h5");
+  for (std::size_t i = 0; i < exact.grids[4].values.size(); ++i) {
+    ASSERT_NEAR(exact.grids[4].values[i], folded.grids[4].values[i], 1e-2) << i;
+  }
+  const Outcome on = Antigrasp("train " + kSmoke + " --from " + dir + "folded.pt --fine-tune " +
+                               "--threads 2 --set cem.episodes=0 --out " + dir + "on");
+  EXPECT_EQ(on.code, 0) << on.text;
+  ExpectRefused("generator " + dir + "folded.pt --fold-batch-norm --out " + dir + "x.pt",
+                "batch_norm = false");
+  EXPECT_FALSE(fs::exists(folder / "x.pt"));
   const Outcome latent = Antigrasp("train " + kSmoke + " --from " + dir +
                                    "small.pt --mode latent --threads 2 --out " + dir + "latent");
   EXPECT_EQ(latent.code, 0) << latent.text;

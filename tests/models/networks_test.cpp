@@ -105,6 +105,33 @@ TEST(Generator, RestartedStatisticsAreTheAverageOverTheBatches) {
   EXPECT_LT((mean - expected).abs().max().item().toDouble(), 1e-5);
 }
 
+TEST(Generator, FoldedBatchNormGivesTheSameGridsInTrainingToo) {
+  ModelOptions options = TinyModel();
+  options.width = 4;
+  Generator with(options);
+  {
+    torch::NoGradGuard no_grad;  // scales and shifts that matter
+    for (auto& item : with->named_parameters()) {
+      if (item.key().starts_with("norm")) item.value().add_(0.3 * torch::randn_like(item.value()));
+    }
+  }
+  with->RestartStatistics();
+  with->train();
+  with(2.0 * Latent(32, options.latent));  // statistics far from those of the batch below
+  with->eval();
+  ModelOptions plain = options;
+  plain.batch_norm = false;
+  Generator without(plain);
+  without->TakeFolded(*with);
+  const torch::Tensor z = Latent(4, options.latent), grids = with(z);
+  for (const bool training : {false, true}) {
+    without->train(training);
+    EXPECT_LT((without(z) - grids).abs().max().item<double>(), 1e-5);
+  }
+  with->train();
+  EXPECT_GT((with(z) - grids).abs().max().item<double>(), 1e-2);  // what folding takes away
+}
+
 TEST(Generator, WeightsDependOnTheStreamOnly) {
   Generator a(TinyModel()), b(TinyModel());
   for (Generator* generator : {&a, &b}) {
