@@ -7,19 +7,35 @@ from reproduce_runs import CONFIG, RESULTS, SURFACE_COLUMNS, compare, keep, rati
 
 
 WIDE = "configs/reproduction_wide.toml"
+BOTTLES = "configs/reproduction_bottles.toml"
+FOLDED = "configs/reproduction_bottles_folded.toml"
 
 
 class Run:
     """A CEM + GAN run of the paper: the set, its resampling iterations and the reduction it reports, %."""
 
-    def __init__(self, name, kind, episodes, paper, settings=(), config=CONFIG, start=None):
+    def __init__(self, name, kind, episodes, paper, settings=(), config=CONFIG, start=None, unfolded=None):
         self.name, self.kind, self.episodes, self.paper, self.ships = name, kind, episodes, paper, name == kind
         self.settings, self.config, self.start = [f"prior.kind={kind}", f"cem.episodes={episodes}", *settings], config, start
+        self.unfolded = unfolded  # configuration whose networks this one trains on, without their batch normalisation
+
+    def networks(self, arguments):
+        """Flags that say what the run begins with: nothing, networks that ship, or new ones, trained here."""
+        if not self.start or (arguments.from_scratch and not self.unfolded):
+            return []
+        if not arguments.from_scratch:
+            return ["--from", self.start]
+        folder, folded = arguments.out / f"{self.name}-unfolded", arguments.out / f"{self.name}-folded.pt"
+        train(f"{self.name}: networks with batch normalisation", folder, ["cem.episodes=0", "cem.control=false"],
+              extra=["--device", arguments.device], config=self.unfolded)
+        if not folded.exists():
+            call("generator", folder, "--fold-batch-norm", "--out", folded)
+        return ["--from", folded, "--fine-tune"]
 
 
 RUNS = [Run("cylinders", "cylinders", 3, 22),
         Run("prisms", "prisms", 4, 36, config=WIDE, start="prisms-prior"),
-        Run("bottles", "bottles", 5, 17, config=WIDE, start="bottles-prior"),
+        Run("bottles", "bottles", 5, 17, config=FOLDED, start="bottles-prior", unfolded=BOTTLES),
         Run("cylinders-no-spectral-norm", "cylinders", 5, 83, ["model.spectral_norm=false"])]
 
 
@@ -103,16 +119,15 @@ def main():
     parser = argparse.ArgumentParser(prog="scripts/reproduce gan")
     parser.add_argument("--only", choices=[run.name for run in RUNS], help="one run; several calls may run side by side")
     parser.add_argument("--report", action="store_true", help="train nothing; write what there is into the document")
-    parser.add_argument("--from-scratch", action="store_true", help="train episode 0 of every set (prisms and bottles: an hour on a core)")
+    parser.add_argument("--from-scratch", action="store_true", help="train episode 0 of every set (prisms an hour on a core, bottles two)")
     parser.add_argument("--device", default="cpu", help="of the networks: cpu, cuda")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("runs/gan"), help="folder of the runs")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     for run in RUNS:
         if not arguments.report and arguments.only in (None, run.name):
-            start = ["--from", run.start] if run.start and not arguments.from_scratch else []
             train(f"{run.name}: {run.episodes} resampling iterations and their control", arguments.out / run.name, run.settings,
-                  extra=[*start, "--device", arguments.device], config=run.config)
+                  extra=[*run.networks(arguments), "--device", arguments.device], config=run.config)
     if arguments.report or not arguments.only:
         runs = [(run, arguments.out / run.name) for run in RUNS if rows_of(arguments.out / run.name)]
         for run, folder in runs:
