@@ -18,7 +18,9 @@ struct Range {
   double Draw(RngStream& rng) const { return rng.Uniform(low, high); }
 };
 
-// Heights are parts of the whole height; what body, shoulder and cap leave is the neck. Radii are
+// Heights are parts of the whole height; what body, shoulder and cap leave is the neck. A cap is at
+// least two cells of a 32^3 grid thick: thinner ones come and go with where the nodes lie, and
+// generators make rings of specks of them. Radii are
 // parts of the body's, but body_radius is one of the cube's side.
 struct Family {
   Range height, body_radius;
@@ -36,7 +38,7 @@ constexpr std::array<Family, kBottleFamilies> kFamilies = {{
      {0.145, 0.18},
      {0.50, 0.60},
      {0.12, 0.18},
-     {0.03, 0.06},
+     {0.075, 0.105},
      {0.36, 0.44},
      {1.12, 1.30},
      {0.0, 0.0},
@@ -47,7 +49,7 @@ constexpr std::array<Family, kBottleFamilies> kFamilies = {{
      {0.15, 0.19},
      {0.40, 0.52},
      {0.22, 0.32},
-     {0.035, 0.055},
+     {0.085, 0.115},
      {0.36, 0.45},
      {1.12, 1.30},
      {0.0, 0.0},
@@ -58,7 +60,7 @@ constexpr std::array<Family, kBottleFamilies> kFamilies = {{
      {0.15, 0.19},
      {0.58, 0.68},
      {0.10, 0.18},
-     {0.06, 0.10},
+     {0.08, 0.115},
      {0.38, 0.50},
      {1.15, 1.40},
      {0.06, 0.22},
@@ -69,7 +71,7 @@ constexpr std::array<Family, kBottleFamilies> kFamilies = {{
      {0.26, 0.36},
      {0.04, 0.10},
      {0.48, 0.60},
-     {0.03, 0.05},
+     {0.09, 0.13},
      {0.26, 0.38},
      {1.15, 1.40},
      {0.0, 0.0},
@@ -80,7 +82,7 @@ constexpr std::array<Family, kBottleFamilies> kFamilies = {{
      {0.26, 0.38},
      {0.64, 0.74},
      {0.07, 0.13},
-     {0.11, 0.16},
+     {0.115, 0.16},
      {0.68, 0.84},
      {1.04, 1.18},
      {0.0, 0.06},
@@ -99,7 +101,9 @@ constexpr std::array<Family, kBottleFamilies> kFamilies = {{
      {0.05, 0.12}},
 }};
 
+constexpr Range kCapFillet = {0.3, 0.5};  // rounding of the cap's upper edge, of its height
 constexpr int kCurveSteps = 16;
+constexpr double kArc = 0.5522847498;  // a cubic this long is a quarter circle to 3e-4
 
 void AddBezier(std::vector<Vector2d>* outline, const Vector2d& a, const Vector2d& b,
                const Vector2d& c, const Vector2d& d) {
@@ -121,9 +125,19 @@ void AddBase(std::vector<Vector2d>* outline, double radius, double dimple, doubl
   outline->push_back({0.0, dimple});
   AddBezier(outline, {0.0, dimple}, {0.5 * foot, dimple}, {0.7 * foot, 0.0}, {foot, 0.0});
   outline->push_back({radius - fillet, 0.0});
-  constexpr double kArc = 0.5522847498;  // a cubic this long is a quarter circle to 3e-4
   AddBezier(outline, {radius - fillet, 0.0}, {radius - (1 - kArc) * fillet, 0.0},
             {radius, (1 - kArc) * fillet}, {radius, fillet});
+}
+
+// From the neck out to the cap's rim, up, and over a rounded edge to the axis.
+void AddCap(std::vector<Vector2d>* outline, double radius, double bottom, double top,
+            double fillet) {
+  outline->push_back({outline->back().x(), bottom});
+  outline->push_back({radius, bottom});
+  outline->push_back({radius, top - fillet});
+  AddBezier(outline, {radius, top - fillet}, {radius, top - (1 - kArc) * fillet},
+            {radius - (1 - kArc) * fillet, top}, {radius - fillet, top});
+  outline->push_back({0.0, top});
 }
 
 // The body's wall, drawn in by a cosine in the middle.
@@ -161,10 +175,8 @@ BottleProfile SampleBottle(int family, RngStream& rng) {
   AddBase(&outline, radius, dimple, fillet);
   AddBody(&outline, radius, body_top, waist);
   AddShoulder(&outline, {neck, std::min(shoulder_top, cap_bottom)}, rng.Uniform(0.35, 0.65));
-  outline.push_back({neck, cap_bottom});
-  outline.push_back({cap, cap_bottom});
-  outline.push_back({cap, height});
-  outline.push_back({0.0, height});
+  const double cap_fillet = std::min(kCapFillet.Draw(rng) * (height - cap_bottom), 0.5 * cap);
+  AddCap(&outline, cap, cap_bottom, height, cap_fillet);
   for (Vector2d& p : outline) p.y() -= 0.5 * height;
   return profile;
 }

@@ -62,13 +62,36 @@ TEST(Bottle, OutlineNeverCrossesItself) {
   }
 }
 
+// Index of the point where the cap's wall begins; the neck ends at the one before.
+std::size_t CapRim(const std::vector<Eigen::Vector2d>& outline) {
+  std::size_t rim = outline.size() - 1;
+  while (outline[rim].y() == outline.back().y() || outline[rim].y() != outline[rim - 1].y()) --rim;
+  return rim;
+}
+
+TEST(Bottle, CapsAreTwoCellsThickAndRoundedAbove) {
+  for (int family = 0; family < kBottleFamilies; ++family) {
+    for (int seed = 0; seed < 20; ++seed) {
+      RngStream rng(seed, "bottle-test");
+      const BottleProfile bottle = SampleBottle(family, rng);
+      const auto& outline = bottle.outline;
+      const double top = outline.back().y();
+      const std::size_t rim = CapRim(outline);
+      const double radius = outline[rim].x();
+      EXPECT_GE(top - outline[rim].y(), 2.0 / 32) << "family " << family;
+      EXPECT_GT(SignedDistance(bottle, 0.98 * radius, outline[rim].y() + 0.01), 0.0);
+      EXPECT_LT(SignedDistance(bottle, radius, top), -0.004) << "family " << family;
+    }
+  }
+}
+
 TEST(Bottle, NeckIsNarrowerThanTheBody) {
   for (int family = 0; family < kBottleFamilies; ++family) {
     RngStream rng(5, "bottle-test");
     const auto outline = SampleBottle(family, rng).outline;
     double body = 0.0;
     for (const auto& p : outline) body = std::max(body, p.x());
-    const double neck = outline[outline.size() - 4].x();
+    const double neck = outline[CapRim(outline) - 1].x();
     EXPECT_LT(neck, 0.9 * body) << "family " << family;
     EXPECT_GT(neck, 0.03) << "family " << family;
   }
