@@ -11,6 +11,12 @@ BOTTLES = "configs/reproduction_bottles.toml"
 FOLDED = "configs/reproduction_bottles_folded.toml"
 
 
+# Bottles: networks with batch normalisation are folded and trained on by these, one after the other, and at last by FOLDED itself.
+FOLDED_BEFORE = [["gan.batch=64", "gan.learning_rate_g=2e-4", "gan.learning_rate_d=2e-4", "cem.prior_iterations=2500"],
+                 ["gan.batch=32", "gan.learning_rate_g=1e-4", "gan.learning_rate_d=1.5e-4", "cem.prior_iterations=3000"]]
+NETWORKS_ONLY = ["cem.episodes=0", "cem.control=false"]
+
+
 class Run:
     """A CEM + GAN run of the paper: the set, its resampling iterations and the reduction it reports, %."""
 
@@ -25,12 +31,17 @@ class Run:
             return []
         if not arguments.from_scratch:
             return ["--from", self.start]
-        folder, folded = arguments.out / f"{self.name}-unfolded", arguments.out / f"{self.name}-folded.pt"
-        train(f"{self.name}: networks with batch normalisation", folder, ["cem.episodes=0", "cem.control=false"],
-              extra=["--device", arguments.device], config=self.unfolded)
-        if not folded.exists():
-            call("generator", folder, "--fold-batch-norm", "--out", folded)
-        return ["--from", folded, "--fine-tune"]
+        folder, networks = arguments.out / f"{self.name}-unfolded", arguments.out / f"{self.name}-folded.pt"
+        device = ["--device", arguments.device]
+        train(f"{self.name}: networks with batch normalisation", folder, NETWORKS_ONLY, extra=device, config=self.unfolded)
+        if not networks.exists():
+            call("generator", folder, "--fold-batch-norm", "--out", networks)
+        for stage, settings in enumerate(FOLDED_BEFORE, 1):
+            folder = arguments.out / f"{self.name}-folded-{stage}"
+            train(f"{self.name}: folded networks, stage {stage} of {len(FOLDED_BEFORE) + 1}", folder, [*NETWORKS_ONLY, *settings],
+                  extra=["--from", networks, "--fine-tune", *device], config=self.config)
+            networks = folder / "checkpoint.pt"
+        return ["--from", networks, "--fine-tune"]
 
 
 RUNS = [Run("cylinders", "cylinders", 3, 22),
