@@ -223,8 +223,7 @@ class ChunkProducts {
 }  // namespace
 
 bool HasCellConv() {
-  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                          !__builtin_cpu_supports("avx512f");  // there oneDNN's are twice as wide
+  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   return has;
 }
 

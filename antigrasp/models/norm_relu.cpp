@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "antigrasp/models/norm_rows.h"
+
 namespace antigrasp {
 namespace {
 
@@ -36,16 +38,6 @@ struct Rows {
   std::int64_t channels, count;
 };
 
-// sums[c] = the sum of value(i, c) over the rows [begin, end), element i of channel c.
-template <typename Value>
-void SumRows(std::int64_t begin, std::int64_t end, std::int64_t channels, float* sums,
-             const Value& value) {
-  std::fill(sums, sums + channels, 0.0F);
-  for (std::int64_t r = begin; r < end; ++r) {
-    for (std::int64_t c = 0; c < channels; ++c) sums[c] += value(r * channels + c, c);
-  }
-}
-
 struct Moments {
   at::Tensor mean, variance;  // [C] float; the variance over n, not n - 1
 };
@@ -59,16 +51,12 @@ Moments MomentsOf(const at::Tensor& x) {
   const float* values = x.data_ptr<float>();
   std::vector<float> sums(rows.Chunks() * channels), squares(sums.size());
   rows.ForChunks([&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
+    const float* from = values + begin * channels;
     float* sum = sums.data() + chunk * channels;
-    SumRows(begin, end, channels, sum, [=](std::int64_t i, std::int64_t) { return values[i]; });
+    norm::Sum(from, end - begin, channels, sum);
     std::vector<float> mean(channels);
     for (std::int64_t c = 0; c < channels; ++c) mean[c] = sum[c] / static_cast<float>(end - begin);
-    const float* center = mean.data();
-    SumRows(begin, end, channels, squares.data() + chunk * channels,
-            [=](std::int64_t i, std::int64_t c) {
-              const float d = values[i] - center[c];
-              return d * d;
-            });
+    norm::SumSquares(from, end - begin, channels, mean.data(), squares.data() + chunk * channels);
   });
   Moments moments{at::empty({channels}, x.options()), at::empty({channels}, x.options())};
   for (std::int64_t c = 0; c < channels; ++c) {
@@ -91,16 +79,12 @@ Moments MomentsOf(const at::Tensor& x) {
 at::Tensor ScaleAndCut(const at::Tensor& x, const at::Tensor& scale, const at::Tensor& shift) {
   at::Tensor result = at::empty_like(x);
   const Rows rows(x);
-  const float *from = x.data_ptr<float>(), *a = scale.data_ptr<float>();
-  const float* b = shift.data_ptr<float>();
+  const norm::Cut cut{scale.data_ptr<float>(), shift.data_ptr<float>()};
+  const float* from = x.data_ptr<float>();
   float* to = result.data_ptr<float>();
   rows.ForChunks([&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t r = begin; r < end; ++r) {
-      for (std::int64_t c = 0, i = r * rows.channels; c < rows.channels; ++c, ++i) {
-        const float y = from[i] * a[c] + b[c];
-        to[i] = y > 0.0F ? y : 0.0F;
-      }
-    }
+    const std::int64_t first = begin * rows.channels;
+    norm::ScaleAndCut(from + first, end - begin, rows.channels, cut, to + first);
   });
   return result;
 }
@@ -110,20 +94,14 @@ at::Tensor GradientSums(const at::Tensor& x, const at::Tensor& g, const at::Tens
                         const at::Tensor& shift, const at::Tensor& mean) {
   const Rows rows(x);
   const std::int64_t channels = rows.channels;
+  const norm::Cut cut{scale.data_ptr<float>(), shift.data_ptr<float>()};
   const float *values = x.data_ptr<float>(), *slopes = g.data_ptr<float>();
-  const float *a = scale.data_ptr<float>(), *b = shift.data_ptr<float>();
   const float* center = mean.data_ptr<float>();
   std::vector<float> sums(rows.Chunks() * channels * 2);
   rows.ForChunks([&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
     float* plain = sums.data() + chunk * 2 * channels;
-    float* weighted = plain + channels;
-    for (std::int64_t r = begin; r < end; ++r) {
-      for (std::int64_t c = 0, i = r * channels; c < channels; ++c, ++i) {
-        const float slope = values[i] * a[c] + b[c] > 0.0F ? slopes[i] : 0.0F;
-        plain[c] += slope;
-        weighted[c] += slope * (values[i] - center[c]);
-      }
-    }
+    norm::SumGradients(values + begin * channels, slopes + begin * channels, end - begin, channels,
+                       cut, center, plain, plain + channels);
   });
   at::Tensor result = at::zeros({2, channels}, at::kDouble);
   double* total = result.data_ptr<double>();
@@ -137,17 +115,14 @@ at::Tensor InputGradient(const at::Tensor& x, const at::Tensor& g, const at::Ten
                          const at::Tensor& offset) {
   at::Tensor result = at::empty_like(x);
   const Rows rows(x);
+  const norm::Cut cut{scale.data_ptr<float>(), shift.data_ptr<float>()};
   const float *values = x.data_ptr<float>(), *slopes = g.data_ptr<float>();
-  const float *a = scale.data_ptr<float>(), *b = shift.data_ptr<float>();
   const float *u = slope.data_ptr<float>(), *v = offset.data_ptr<float>();
   float* to = result.data_ptr<float>();
   rows.ForChunks([&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t r = begin; r < end; ++r) {
-      for (std::int64_t c = 0, i = r * rows.channels; c < rows.channels; ++c, ++i) {
-        const float passed = values[i] * a[c] + b[c] > 0.0F ? a[c] * slopes[i] : 0.0F;
-        to[i] = passed + (u[c] * values[i] + v[c]);
-      }
-    }
+    const std::int64_t first = begin * rows.channels;
+    norm::InputGradient(values + first, slopes + first, end - begin, rows.channels, cut, u, v,
+                        to + first);
   });
   return result;
 }

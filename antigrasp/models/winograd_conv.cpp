@@ -5,61 +5,13 @@
 #include "antigrasp/models/winograd_tiles.h"
 #include "antigrasp/models/winograd_weights.h"
 
-// Compiled for AVX2 and FMA, like all of Winograd's convolution.
+// Compiled for AVX2 and FMA, like all of Winograd's convolution but its products.
 namespace antigrasp {
 namespace winograd {
 namespace {
 
 constexpr std::int64_t kDepth = 128;    // of products summed at a time: a panel's rows stay in L1
 constexpr std::int64_t kColumns = 128;  // cells' channels made at a time
-
-// products [Rows][16] = or += values [Rows][depth] * panel [depth][16].
-template <int Rows>
-inline void MultiplyRows(const float* values, std::int64_t stride, std::int64_t depth,
-                         const float* panel, float* products, std::int64_t products_stride,
-                         bool first) {
-  __m256 sums[Rows][2];
-#pragma GCC unroll 8
-  for (int r = 0; r < Rows; ++r) {
-    const float* from = products + r * products_stride;
-    sums[r][0] = first ? _mm256_setzero_ps() : _mm256_loadu_ps(from);
-    sums[r][1] = first ? _mm256_setzero_ps() : _mm256_loadu_ps(from + kLanes);
-  }
-  for (std::int64_t i = 0; i < depth; ++i, panel += kPanel) {
-    const __m256 left = _mm256_loadu_ps(panel), right = _mm256_loadu_ps(panel + kLanes);
-#pragma GCC unroll 8
-    for (int r = 0; r < Rows; ++r) {
-      const __m256 value = _mm256_broadcast_ss(values + r * stride + i);
-      sums[r][0] = _mm256_fmadd_ps(value, left, sums[r][0]);
-      sums[r][1] = _mm256_fmadd_ps(value, right, sums[r][1]);
-    }
-  }
-#pragma GCC unroll 8
-  for (int r = 0; r < Rows; ++r) {
-    _mm256_storeu_ps(products + r * products_stride, sums[r][0]);
-    _mm256_storeu_ps(products + r * products_stride + kLanes, sums[r][1]);
-  }
-}
-
-// values [rows][depth], panels of `width` columns: products [rows][width] = or += their product.
-// Six rows fill the registers, four still hide the latency: any even number from 4 up is a sum of
-// both.
-void Multiply(const float* values, std::int64_t stride, std::int64_t rows, std::int64_t depth,
-              const float* panels, std::int64_t panel_step, std::int64_t width, float* products,
-              std::int64_t products_stride, bool first) {
-  const std::int64_t sixes = (rows - std::array{0, 8, 4}[rows % 6 / 2]) / 6 * 6;
-  for (std::int64_t c = 0; c < width; c += kPanel, panels += panel_step, products += kPanel) {
-    std::int64_t r = 0;
-    for (; r < sixes; r += 6) {
-      MultiplyRows<6>(values + r * stride, stride, depth, panels, products + r * products_stride,
-                      products_stride, first);
-    }
-    for (; r < rows; r += 4) {
-      MultiplyRows<4>(values + r * stride, stride, depth, panels, products + r * products_stride,
-                      products_stride, first);
-    }
-  }
-}
 
 // One call: the layer and the buffers of one thread.
 class Convolution {
@@ -84,9 +36,18 @@ class Convolution {
                            value_step_);
       }
       for (int k = 0; k < 9; ++k) {
-        Multiply(values_.get() + k * value_step_, kDepth, block.rows, depth,
-                 panels_.values.get() + (9 * Z + k) * panels_.step + first * kPanel, s_.in * kPanel,
-                 s_.out, products_.get() + k * product_step_, s_.out, first == 0);
+        add_products_({.rows = block.rows,
+                       .depth = depth,
+                       .width = s_.out,
+                       .left = values_.get() + k * value_step_,
+                       .left_row_step = kDepth,
+                       .left_depth_step = 1,
+                       .right = panels_.values.get() + (9 * Z + k) * panels_.step + first * kPanel,
+                       .right_panel_step = s_.in * kPanel,
+                       .sums = products_.get() + k * product_step_,
+                       .sums_row_step = s_.out,
+                       .sums_panel_step = kPanel,
+                       .first = first == 0});
       }
     }
     for (std::int64_t r = 0; r < block.count; ++r) {
@@ -104,9 +65,18 @@ class Convolution {
                        value_step_);
     }
     for (int k = 0; k < 9; ++k) {
-      Multiply(values_.get() + k * value_step_, s_.out, block.rows, s_.out,
-               panels_.values.get() + (9 * Z + k) * panels_.step + first * s_.out, s_.out * kPanel,
-               width, products_.get() + k * product_step_, kColumns, true);
+      add_products_({.rows = block.rows,
+                     .depth = s_.out,
+                     .width = width,
+                     .left = values_.get() + k * value_step_,
+                     .left_row_step = s_.out,
+                     .left_depth_step = 1,
+                     .right = panels_.values.get() + (9 * Z + k) * panels_.step + first * s_.out,
+                     .right_panel_step = s_.out * kPanel,
+                     .sums = products_.get() + k * product_step_,
+                     .sums_row_step = kColumns,
+                     .sums_panel_step = kPanel,
+                     .first = true});
     }
     for (std::int64_t r = 0; r < block.count; ++r) {
       AddToCells<Z>(products_.get() + r * kColumns, product_step_, width, cell_,
@@ -115,6 +85,7 @@ class Convolution {
   }
 
  private:
+  const ProductKernel add_products_ = BestProductKernel();
   CellConvShape s_;
   Steps cell_, output_;
   const Panels& panels_;

@@ -4,36 +4,10 @@
 #include "antigrasp/models/winograd_tiles.h"
 #include "antigrasp/models/winograd_weights.h"
 
-// Compiled for AVX2 and FMA, like all of Winograd's convolution.
+// Compiled for AVX2 and FMA, like all of Winograd's convolution but its products.
 namespace antigrasp {
 namespace winograd {
 namespace {
-
-// sums [Rows][16] = or += over the tiles of values [tile][Rows] x outputs [tile][16].
-template <int Rows>
-inline void AddTiles(const float* values, std::int64_t stride, const float* outputs,
-                     std::int64_t tiles, float* sums, bool first) {
-  __m256 total[Rows][2];
-#pragma GCC unroll 8
-  for (int r = 0; r < Rows; ++r) {
-    total[r][0] = first ? _mm256_setzero_ps() : _mm256_loadu_ps(sums + r * kPanel);
-    total[r][1] = first ? _mm256_setzero_ps() : _mm256_loadu_ps(sums + r * kPanel + kLanes);
-  }
-  for (std::int64_t t = 0; t < tiles; ++t, values += stride, outputs += kPanel) {
-    const __m256 left = _mm256_loadu_ps(outputs), right = _mm256_loadu_ps(outputs + kLanes);
-#pragma GCC unroll 8
-    for (int r = 0; r < Rows; ++r) {
-      const __m256 value = _mm256_broadcast_ss(values + r);
-      total[r][0] = _mm256_fmadd_ps(value, left, total[r][0]);
-      total[r][1] = _mm256_fmadd_ps(value, right, total[r][1]);
-    }
-  }
-#pragma GCC unroll 8
-  for (int r = 0; r < Rows; ++r) {
-    _mm256_storeu_ps(sums + r * kPanel, total[r][0]);
-    _mm256_storeu_ps(sums + r * kPanel + kLanes, total[r][1]);
-  }
-}
 
 // The gradients of the factors of one block of inputs, summed over blocks of tiles.
 class BlockGradient {
@@ -65,12 +39,18 @@ class BlockGradient {
       }
     }
     for (int k = 0; k < 9; ++k) {
-      const float* values = values_.get() + k * value_step_;
-      for (std::int64_t o = 0; o < s_.out; o += kPanel) {
-        const float* outputs = spread_.get() + k * spread_step_ + o * kTiles;
-        float* sums = sums_.get() + (9 * Z + k) * sum_step_ + o * rows_;
-        AddRows(values, outputs, tiles.count, sums, first);
-      }
+      add_products_({.rows = rows_,
+                     .depth = tiles.count,
+                     .width = s_.out,
+                     .left = values_.get() + k * value_step_,
+                     .left_row_step = 1,
+                     .left_depth_step = rows_,
+                     .right = spread_.get() + k * spread_step_,
+                     .right_panel_step = kTiles * kPanel,
+                     .sums = sums_.get() + (9 * Z + k) * sum_step_,
+                     .sums_row_step = kPanel,
+                     .sums_panel_step = rows_ * kPanel,
+                     .first = first});
     }
   }
 
@@ -79,19 +59,7 @@ class BlockGradient {
   }
 
  private:
-  // 32 and 64 rows as sixes and fours: six fill the registers.
-  void AddRows(const float* values, const float* outputs, std::int64_t tiles, float* sums,
-               bool first) const {
-    const std::int64_t sixes = rows_ == 64 ? 60 : 24;
-    std::int64_t r = 0;
-    for (; r < sixes; r += 6) {
-      AddTiles<6>(values + r, rows_, outputs, tiles, sums + r * kPanel, first);
-    }
-    for (; r < rows_; r += 4) {
-      AddTiles<4>(values + r, rows_, outputs, tiles, sums + r * kPanel, first);
-    }
-  }
-
+  const ProductKernel add_products_ = BestProductKernel();
   CellConvShape s_;
   InputBlock block_;
   std::int64_t rows_;

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "antigrasp/models/cell_conv.h"
+#include "antigrasp/models/winograd_products.h"
 
 // The sums around the products of winograd_conv.h, on one tile: 2^3 outputs and the 3^3 cells that
 // they see. Included by files compiled for AVX2 only.
@@ -19,7 +20,6 @@
 namespace antigrasp::winograd {
 
 constexpr int kLanes = 8;               // floats of a vector
-constexpr int kPanel = 2 * kLanes;      // columns that are multiplied at a time
 constexpr std::int64_t kTiles = 64;     // tiles of a block, at most
 constexpr std::int64_t kPadding = 16;   // floats between planes: powers of two fight for lines
 constexpr std::size_t kAlignment = 64;  // of a cache line
@@ -46,10 +46,10 @@ inline Steps StepsOf(std::int64_t side, std::int64_t channels) {
 }
 
 // The tiles [first, first + count) of all samples, x fastest: the offset of each one's first cell
-// and output. The last is repeated up to an even number of rows, at least 4.
+// and output. The last is repeated up to a multiple of kRowStep.
 struct TileBlock {
   TileBlock(const CellConvShape& shape, std::int64_t first, std::int64_t tiles)
-      : count(tiles), rows(std::max<std::int64_t>(4, (tiles + 1) / 2 * 2)) {
+      : count(tiles), rows((tiles + kRowStep - 1) / kRowStep * kRowStep) {
     const std::int64_t g = shape.h - 1, t = g / 2;
     const Steps cell = StepsOf(shape.h, shape.in), output = StepsOf(g, shape.out);
     for (std::int64_t r = 0; r < rows; ++r) {

@@ -1,5 +1,6 @@
 #include "antigrasp/models/winograd_conv.h"
 
+#include <ATen/ATen.h>
 #include <ATen/Parallel.h>
 #include <gtest/gtest.h>
 #include <torch/autograd.h>
@@ -10,6 +11,7 @@
 #include "antigrasp/core/rng.h"
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/random_tensor.h"
+#include "antigrasp/models/winograd_products.h"
 
 namespace antigrasp {
 namespace {
@@ -62,6 +64,7 @@ TEST(WinogradConv, IsAsExactAsFloat) {
 }
 
 TEST(WinogradConv, GivesTheSameBitsWithAnyNumberOfThreads) {
+  if (!HasCellConv()) GTEST_SKIP() << "no AVX2: LibTorch's convolutions do the work";
   const int threads_before = at::get_num_threads();
   // More tiles of a sample than a block takes, as many, and fewer; and an odd number of them.
   for (const Layer& layer :
@@ -77,6 +80,41 @@ TEST(WinogradConv, GivesTheSameBitsWithAnyNumberOfThreads) {
     }
   }
   at::set_num_threads(threads_before);
+}
+
+// Whole rounds of rows and pairs of panels, and others.
+TEST(WinogradConv, ItsAvx512KernelGivesTheBitsOfItsAvx2Kernel) {
+  if (!__builtin_cpu_supports("avx512f")) GTEST_SKIP() << "no AVX-512";
+  constexpr std::int64_t kDepth = 24, kPanel = winograd::kPanel;
+  for (const std::int64_t rows : {4, 8, 12, 60, 64}) {
+    for (const std::int64_t width : {16, 32, 48}) {
+      const torch::Tensor left = Normal({rows, kDepth}, 1);
+      const torch::Tensor right = Normal({width / kPanel, kDepth, kPanel}, 2);
+      for (const bool first : {true, false}) {
+        const torch::Tensor before = Normal({rows, width}, 3);
+        torch::Tensor narrow = before.clone(), wide = before.clone();
+        winograd::ProductBlock block = {rows,
+                                        kDepth,
+                                        width,
+                                        left.data_ptr<float>(),
+                                        kDepth,
+                                        1,
+                                        right.data_ptr<float>(),
+                                        kDepth * kPanel,
+                                        narrow.data_ptr<float>(),
+                                        width,
+                                        kPanel,
+                                        first};
+        winograd::AddProductsAvx2(block);
+        block.sums = wide.data_ptr<float>();
+        winograd::AddProductsAvx512(block);
+        EXPECT_TRUE(torch::equal(narrow, wide)) << rows << " x " << width;
+        torch::Tensor exact = left.matmul(right.permute({1, 0, 2}).reshape({kDepth, width}));
+        if (!first) exact = exact + before;
+        EXPECT_LT((wide - exact).abs().max().item<double>(), 1e-4) << rows << " x " << width;
+      }
+    }
+  }
 }
 
 }  // namespace
