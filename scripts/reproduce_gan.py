@@ -10,10 +10,10 @@ WIDE = "configs/reproduction_wide.toml"
 BOTTLES = "configs/reproduction_bottles.toml"
 FOLDED = "configs/reproduction_bottles_folded.toml"
 # Bottles: networks with batch normalisation are folded and trained on by these, one after the other, and at last by FOLDED itself.
-FOLDED_BEFORE = [["gan.batch=64", "gan.learning_rate_g=2e-4", "gan.learning_rate_d=2e-4", "cem.prior_iterations=2500"],
-                 ["gan.batch=32", "gan.learning_rate_g=1e-4", "gan.learning_rate_d=1.5e-4", "cem.prior_iterations=3000"],
-                 ["gan.batch=64", "gan.learning_rate_g=1.5e-4", "gan.learning_rate_d=2e-4", "cem.prior_iterations=2300"],
-                 ["gan.batch=64", "gan.learning_rate_g=1.5e-4", "gan.learning_rate_d=2e-4", "cem.prior_iterations=4500", "run.seed=11"]]
+FOLDED_BEFORE = [[f"gan.batch={batch}", f"gan.learning_rate_g={rate_g}", f"gan.learning_rate_d={rate_d}",
+                  f"cem.prior_iterations={updates}", f"run.seed={seed}"]
+                 for batch, rate_g, rate_d, updates, seed in ((64, 2e-4, 2e-4, 2500, 1), (32, 1e-4, 1.5e-4, 3000, 1),
+                                                              (64, 1.5e-4, 2e-4, 2300, 1), (64, 1.5e-4, 2e-4, 4500, 11))]
 NETWORKS_ONLY = ["cem.episodes=0", "cem.control=false"]
 
 

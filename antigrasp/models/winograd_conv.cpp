@@ -2,6 +2,7 @@
 
 #include <ATen/Parallel.h>
 
+#include "antigrasp/models/winograd_sums.h"
 #include "antigrasp/models/winograd_tiles.h"
 #include "antigrasp/models/winograd_weights.h"
 

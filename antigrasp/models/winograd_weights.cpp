@@ -1,6 +1,7 @@
 #include "antigrasp/models/winograd_weights.h"
 
 #include <ATen/Parallel.h>
+#include <immintrin.h>
 
 // Compiled for AVX2 and FMA, like all of Winograd's convolution.
 namespace antigrasp::winograd {
