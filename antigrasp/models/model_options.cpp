@@ -30,7 +30,7 @@ void Bind(OptionTable* table, ModelOptions* options) {
   table->Add("model.raw_scale", &options->raw_scale, 0.01, 100,
              "network value per unit of distance when truncation = 0");
   table->Add("model.precision", &options->precision, {"float32", "bfloat16"},
-             "of the convolutions' products; bfloat16 for CUDA and CPUs with AVX512_BF16");
+             "of the convolutions' products; bfloat16 for CUDA: CPUs are faster with float32");
 }
 
 }  // namespace antigrasp

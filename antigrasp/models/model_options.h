@@ -34,7 +34,8 @@ struct ModelOptions {
   double truncation = 0.1;
   double raw_scale = 1.0;
   // In which the convolutions with stride multiply; sums, weights and all else stay float32.
-  // "bfloat16" is for devices that have it: CUDA, CPUs with AVX512_BF16.
+  // "bfloat16" is for CUDA: CPUs are twice as fast with float32, those with AVX512_BF16 included
+  // (docs/performance.md).
   std::string precision = "float32";
 };
 
