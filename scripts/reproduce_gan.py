@@ -130,7 +130,7 @@ def main():
     parser = argparse.ArgumentParser(prog="scripts/reproduce gan")
     parser.add_argument("--only", choices=[run.name for run in RUNS], help="one run; several calls may run side by side")
     parser.add_argument("--report", action="store_true", help="train nothing; write what there is into the document")
-    parser.add_argument("--from-scratch", action="store_true", help="train episode 0 of every set (prisms an hour on a core, bottles two)")
+    parser.add_argument("--from-scratch", action="store_true", help="train episode 0 of every set: hours on a CPU")
     parser.add_argument("--device", default="cpu", help="of the networks: cpu, cuda")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("runs/gan"), help="folder of the runs")
     arguments = parser.parse_args()

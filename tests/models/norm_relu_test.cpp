@@ -36,10 +36,11 @@ void ExpectNear(const torch::Tensor& actual, const torch::Tensor& expected, cons
 TEST(NormRelu, EqualsTheLayersItStandsForWithTheirGradientsAndStatistics) {
   for (const at::MemoryFormat format :
        {at::MemoryFormat::Contiguous, at::MemoryFormat::ChannelsLast3d}) {
-    torch::nn::BatchNorm3d ours = Norm(24), plain = Norm(24);
+    // Channels of every kind of block: 16, 8, and three by themselves.
+    torch::nn::BatchNorm3d ours = Norm(27), plain = Norm(27);
     for (int step = 0; step < 3; ++step) {
       // Far from 0: the variance must not drown in the square of the mean.
-      torch::Tensor x = (10.0 + Normal({5, 24, 8, 8, 7}, 1.0, 3 + step)).contiguous(format);
+      torch::Tensor x = (10.0 + Normal({5, 27, 8, 8, 7}, 1.0, 3 + step)).contiguous(format);
       torch::Tensor y = x.clone().requires_grad_();
       x.requires_grad_();
       const torch::Tensor actual = NormRelu(ours, x), expected = plain(y).relu();
