@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/quality/random_grasps.h"
 #include "tests/support/shapes.h"
@@ -73,6 +74,46 @@ TEST(SurfaceSampler, NeverVisitsAFaceWithoutArea) {
   for (int i = 0; i < 1000; ++i) EXPECT_NEAR(sampler.Draw(&rng).normal.norm(), 1.0, 1e-14);
 }
 
+TEST(SurfaceSampler, IsUniformWithinEachTriangle) {
+  // A right triangle with legs 1 and 2: centroid (1/3, 2/3), E[x^2] = 1/6, E[xy] = 2/12.
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
+  mesh.faces = {{0, 1, 2}};
+  const SurfaceSampler sampler(mesh);
+  EXPECT_DOUBLE_EQ(sampler.area(), 1.0);
+  RngStream rng(5, "surface");
+  const int count = 20000;
+  Vector3d mean = Vector3d::Zero();
+  double xx = 0.0, xy = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const auto [p, normal] = sampler.Draw(&rng);
+    EXPECT_EQ(normal, Vector3d::UnitZ());
+    EXPECT_GE(p.minCoeff(), 0.0);
+    EXPECT_LE(p.x() + 0.5 * p.y(), 1.0 + 1e-15);
+    mean += p / count;
+    xx += p.x() * p.x() / count;
+    xy += p.x() * p.y() / count;
+  }
+  EXPECT_NEAR(mean.x(), 1.0 / 3.0, 0.006);
+  EXPECT_NEAR(mean.y(), 2.0 / 3.0, 0.012);
+  EXPECT_NEAR(xx, 1.0 / 6.0, 0.005);
+  EXPECT_NEAR(xy, 1.0 / 6.0, 0.005);
+}
+
+TEST(DrawInCone, TakesTheHeightFromTheFirstNumberAndTheTurnFromTheSecond) {
+  const Vector3d axis = Vector3d(-2.0, 1.0, 3.0).normalized();
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    RngStream rng(4, "cone", i), plain(4, "cone", i);
+    const Vector3d u = DrawInCone(axis, 0.8, &rng);
+    EXPECT_NEAR(u.dot(axis), 1.0 - plain.Uniform() * (1.0 - std::cos(0.8)), 1e-15);
+    const Vector3d side = axis.unitOrthogonal();
+    const double turn = std::atan2(u.dot(axis.cross(side)), u.dot(side));
+    const double expected = 2.0 * std::numbers::pi * plain.Uniform();
+    EXPECT_NEAR(std::remainder(turn - expected, 2.0 * std::numbers::pi), 0.0, 1e-13);
+    EXPECT_EQ(rng.Uniform(), plain.Uniform());
+  }
+}
+
 TEST(DrawInCone, IsUniformOverTheSolidAngle) {
   RngStream rng(3, "cone");
   const Vector3d axis = Vector3d(1.0, -2.0, 0.5).normalized();
@@ -101,6 +142,33 @@ TEST(AntipodalSampler, EveryGraspOfASphereIsAntipodalAndOnTheSurface) {
       EXPECT_NEAR(c.point.norm(), 0.02, 1e-4);
       EXPECT_GT(c.normal.dot(c.point), 0.0);
     }
+  }
+}
+
+TEST(AntipodalSampler, ClosesAlongADirectionOfTheFrictionConeAboutTheInwardNormal) {
+  // The cone's half angle is atan(mu), not mu: 0.46 and 0.5 rad here, 1.0 and 1.6 rad below.
+  const TriangleMesh box = shapes::Box({0.03, 0.06, 0.08});
+  const RayScene scene(box);
+  for (const double friction : {0.5, 1.6}) {
+    const AntipodalSampler sampler(box, scene, friction, kOpening);
+    int found = 0;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+      RngStream rng(6, "grasp", i), again(6, "grasp", i);
+      const auto grasp = sampler.Try(&rng);
+      const auto [point, normal] = SurfaceSampler(box).Draw(&again);
+      const Vector3d axis = DrawInCone(-normal, std::atan(friction), &again);
+      if (!grasp) continue;
+      ++found;
+      EXPECT_EQ(grasp->axis, axis);
+      EXPECT_LT((grasp->contacts[0].point - point).norm(), 1e-9);
+      EXPECT_EQ(grasp->contacts[0].normal, normal);
+      const Vector3d across = grasp->contacts[1].point - point;
+      EXPECT_LT((across - grasp->width * axis).norm(), 1e-9);
+      if (friction > 1.0) continue;  // else it may close on two sides of an edge
+      EXPECT_EQ(grasp->contacts[1].normal, -normal);
+      EXPECT_NEAR(grasp->width, 0.03 / std::abs(axis.x()), 1e-9);
+    }
+    EXPECT_GT(found, 30);
   }
 }
 
@@ -139,18 +207,53 @@ TEST(AntipodalSampler, JawsCannotReachIntoANarrowSlot) {
   }
 }
 
-TEST(AntipodalSampler, SaysWhyACandidateIsNoGrasp) {
-  const auto reasons = [](const TriangleMesh& mesh) {
-    const RayScene scene(mesh);
-    const AntipodalSampler sampler(mesh, scene, kFriction, kOpening);
-    std::array<int, 3> counts{};
-    for (std::uint64_t i = 0; i < 1000; ++i) {
-      RngStream rng(1, "grasp", 0, i);
-      GraspRejection why{};
-      if (!sampler.Try(&rng, &why)) ++counts[static_cast<std::size_t>(why)];
-    }
-    return counts;
+// How many of 1000 candidates are no grasp for each reason, in the order of GraspRejection.
+std::array<int, 3> Reasons(const TriangleMesh& mesh) {
+  const RayScene scene(mesh);
+  const AntipodalSampler sampler(mesh, scene, kFriction, kOpening);
+  std::array<int, 3> counts{};
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    RngStream rng(1, "grasp", 0, i);
+    GraspRejection why{};
+    if (!sampler.Try(&rng, &why)) ++counts[static_cast<std::size_t>(why)];
+  }
+  return counts;
+}
+
+TEST(AntipodalSampler, AnOppositeSeenFromItsInsideIsNone) {
+  // Two squares that both face up, 3 cm apart: from the upper one a jaw coming back sees the lower
+  // one's back; from the lower one there is nothing.
+  const TriangleMesh square = Transformed(shapes::FlatSquare(), 0.5, Vector3d::Zero());
+  const TriangleMesh both =
+      shapes::Joined(square, Transformed(square, 1.0, -0.03 * Vector3d::UnitZ()));
+  EXPECT_EQ(Reasons(both), (std::array{1000, 0, 0}));
+  EXPECT_EQ(Reasons(shapes::Inverted(shapes::Box({0.03, 0.03, 0.03}))), (std::array{1000, 0, 0}));
+}
+
+TEST(AntipodalSampler, ACandidateBetweenTwoShieldsIsBlockedAndOneOnAWedgeSlips) {
+  // A plate with a thin sheet before each side, all of 2 m so that no edge is near. From the plate
+  // a jaw meets a sheet first: blocked. So does the first jaw from a sheet's inner side; the outer
+  // sides of the sheets, a third of all, are 2 cm apart and make grasps.
+  const Vector3d x = Vector3d::UnitX();
+  const auto slab = [&](double thick, double at) {
+    return Transformed(shapes::Box({thick, 2.0, 2.0}), 1.0, at * x);
   };
+  const auto shielded = Reasons(
+      shapes::Joined(slab(0.01, 0.0), shapes::Joined(slab(0.001, 0.0095), slab(0.001, -0.0095))));
+  EXPECT_LT(shielded[0] + shielded[1], 20) << "but for the rim";
+  EXPECT_NEAR(shielded[2], 667, 60);
+  // Sides that lean to each other by 2 x 27.5 degrees, more than 2 atan(0.5) = 53.1: all slip.
+  TriangleMesh wedge = shapes::Box({0.02, 2.0, 0.02});
+  for (Vector3d& v : wedge.vertices) {
+    v.x() -= std::copysign(std::tan(27.5 / 180.0 * std::numbers::pi), v.x()) * v.z();
+  }
+  const auto leaning = Reasons(wedge);
+  EXPECT_GT(leaning[1], 300);
+  EXPECT_EQ(leaning[2], 0);
+}
+
+TEST(AntipodalSampler, SaysWhyACandidateIsNoGrasp) {
+  const auto reasons = Reasons;
   const auto index = [](GraspRejection why) { return static_cast<std::size_t>(why); };
   // Wider than the opening; faces at 70.5 degrees; a plate whose other side is 4 mm from a block.
   EXPECT_EQ(reasons(shapes::Sphere(0.05, 3))[index(GraspRejection::kNoOpposite)], 1000);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "antigrasp/core/error.h"
+#include "tests/quality/option_lines.h"
 #include "tests/quality/reference_cases.h"
 #include "tests/support/temp_folder.h"
 
@@ -106,6 +107,82 @@ TEST(ContactTable, ABareTableTakesItsConstantsFromTheOptions) {
   EXPECT_EQ(own.model.finger_radius, 0.005);
   EXPECT_EQ(own.model.torque_scale, 1000.0);
   EXPECT_EQ(own.force_limit, 20.0);
+}
+
+TEST(ContactTableOptions, EveryKeyIsBoundToItsFieldAndEveryDefaultIsItsNumber) {
+  const auto head = [](const ContactTableOptions& options) {
+    auto lines = LinesOf(options);
+    lines.resize(6);  // those of the wrench have a test of their own
+    return lines;
+  };
+  EXPECT_EQ(head({}), (std::vector<std::string>{
+                          "contact.friction = 0.5", "contact.cone_edges = 8",
+                          "contact.finger_radius = 0.005", "contact.torque_scale = 1000.0",
+                          "contact.torsion = 'dexnet'", "wrench.force_limit = 20.0"}));
+  ContactTableOptions options{0.25, 6, 0.01, 10.0, "none", {}};
+  options.wrench.force_limit = 3.0;
+  EXPECT_EQ(head(options),
+            (std::vector<std::string>{"contact.friction = 0.25", "contact.cone_edges = 6",
+                                      "contact.finger_radius = 0.01", "contact.torque_scale = 10.0",
+                                      "contact.torsion = 'none'", "wrench.force_limit = 3.0"}));
+}
+
+TEST(ContactTable, EveryNamedColumnFillsItsOwnField) {
+  // 1 to 36 in the order of the names, no two alike; normals and directions along one axis each.
+  const ContactRow row =
+      Read(
+          "id,p1x,p1y,p1z,n1x,n1y,n1z,p2x,p2y,p2z,n2x,n2y,n2z,comx,comy,comz,friction_coef,"
+          "num_cone_faces,finger_radius,torque_scaling,force_limit,in1x,in1y,in1z,in2x,in2y,in2z,"
+          "t1c1_x,t1c1_y,t1c1_z,t1c2_x,t1c2_y,t1c2_z,wfx,wfy,wfz,wtx,wty,wtz\n"
+          "seven,1,2,3,0,-4,0,5,6,7,0,0,8,9,10,11,0.875,12,13,14,15,0,1,0,3,0,-4,1,0,0,0,1,0,"
+          "16,17,18,19,20,21\n")
+          .at(0);
+  EXPECT_EQ(row.id, "seven");
+  EXPECT_EQ(row.contacts[0].point, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(row.contacts[0].normal, Eigen::Vector3d(0, -1, 0));
+  EXPECT_EQ(row.contacts[1].point, Eigen::Vector3d(5, 6, 7));
+  EXPECT_EQ(row.contacts[1].normal, Eigen::Vector3d(0, 0, 1));
+  EXPECT_EQ(row.com, Eigen::Vector3d(9, 10, 11));
+  EXPECT_EQ(row.model.friction, 0.875);
+  EXPECT_EQ(row.model.cone_edges, 12);
+  EXPECT_EQ(row.model.finger_radius, 13.0);
+  EXPECT_EQ(row.model.torque_scale, 14.0);
+  EXPECT_EQ(row.force_limit, 15.0);
+  EXPECT_EQ(row.contacts[0].normal_force, 1.0);
+  // (3, 0, -4) / 5 against the inward normal -z: 4/5 along it, 3/5 across, less than 7/8 of that.
+  EXPECT_NEAR(row.contacts[1].normal_force, 0.8, 1e-15);
+  EXPECT_EQ(row.frames[0][0], Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(row.frames[0][1], Eigen::Vector3d(0, 0, -1));  // y cross x
+  EXPECT_EQ(row.frames[1][0], Eigen::Vector3d(0, 1, 0));
+  EXPECT_EQ(row.frames[1][1], Eigen::Vector3d(1, 0, 0));  // -z cross y
+  EXPECT_EQ(*row.target, (Wrench() << 16, 17, 18, 19, 20, 21).finished());
+}
+
+TEST(ContactTable, TheRowsForceLimitCountsAndTheOptionsSayTheRest) {
+  // The cube's grasp lifts 2 mu F = F: a limit of 2 does not hold 3, one of 4 does.
+  const auto resisted = [](const char* limit, double of_options) {
+    WrenchResistanceOptions options;
+    options.force_limit = of_options;
+    return EvaluateContacts(ReadOne(",wfx,wfy,wfz,force_limit", std::string(",0,0,3,") + limit),
+                            options)
+        .resistance->resisted;
+  };
+  EXPECT_FALSE(resisted("2", 4.0));
+  EXPECT_TRUE(resisted("4", 2.0));
+  // Along the line and against it differ where one contact is weaker: 0.8 of the other.
+  const ContactRow row =
+      ReadOne(",wfx,wfy,wfz,force_limit,in1x,in1y,in1z,in2x,in2y,in2z", ",4.5,0,0,5,3,0,4,-1,0,0");
+  EXPECT_EQ(row.contacts[0].normal_force, 0.0) << "slips: 4/3 of the normal part";
+  const ContactRow weak = ReadOne(",wfx,wfy,wfz,force_limit,in1x,in1y,in1z,in2x,in2y,in2z",
+                                  ",4.5,0,0,5,12,0,5,-1,0,0");  // 12/13 along, 5/12 across
+  WrenchResistanceOptions oppose;
+  EXPECT_TRUE(EvaluateContacts(weak, oppose).resistance->resisted) << "5 x 12/13 = 4.6 along +x";
+  oppose.oppose_target = true;
+  EXPECT_TRUE(EvaluateContacts(weak, oppose).resistance->resisted) << "5 along -x";
+  const ContactRow more =
+      ReadOne(",wfx,wfy,wfz,force_limit,in1x,in1y,in1z,in2x,in2y,in2z", ",4.8,0,0,5,12,0,5,-1,0,0");
+  EXPECT_FALSE(EvaluateContacts(more, {}).resistance->resisted);
+  EXPECT_TRUE(EvaluateContacts(more, oppose).resistance->resisted);
 }
 
 TEST(ContactTable, ColumnsMayStandInAnyOrderAmongOthersWithMarksAndQuotes) {

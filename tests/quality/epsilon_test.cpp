@@ -278,5 +278,32 @@ TEST(GraspMatrix, HasFrictionEdgesThenTorsionPairs) {
   EXPECT_NEAR(wrenches(5, 0), -10.0, 1e-13);
 }
 
+TEST(GraspMatrix, ColumnsGoRoundFromTheFirstTangentToTheSecondAboutTheCentreOfMass) {
+  // Contact 1 presses with 2 N along d = z: t1 = x, t2 = z cross x = y. Friction 1/2, 4 edges.
+  const std::array<Contact, 2> contacts{Contact{Vector3d(1.0, 2.0, 3.0), -Vector3d::UnitZ(), 2.0},
+                                        Contact{Vector3d(1.0, 2.0, 9.0), Vector3d::UnitZ(), 3.0}};
+  const auto wrenches =
+      GraspMatrix(contacts, Vector3d(1.0, 1.0, 1.0), {0.5, 4, 0.1, 10.0, Torsion::kDexNet});
+  ASSERT_EQ(wrenches.cols(), 12);
+  const auto expect = [&](int column, const Vector3d& force, const Vector3d& torque) {
+    EXPECT_LT((wrenches.col(column).head<3>() - force).norm(), 1e-14) << column;
+    EXPECT_LT((wrenches.col(column).tail<3>() - 10.0 * torque).norm(), 1e-12) << column;
+  };
+  // Arm (0, 1, 2); torque (1 fz - 2 fy, 2 fx, -fx).
+  expect(0, {1.0, 0.0, 2.0}, {2.0, 2.0, -1.0});
+  expect(1, {0.0, 1.0, 2.0}, {0.0, 0.0, 0.0});
+  expect(2, {-1.0, 0.0, 2.0}, {2.0, -2.0, 1.0});
+  expect(3, {0.0, -1.0, 2.0}, {4.0, 0.0, 0.0});
+  // Contact 2, d = -z: t2 = -z cross x = -y. Arm (0, 1, 8): torque (fz - 8 fy, 8 fx, -fx).
+  expect(4, {1.5, 0.0, -3.0}, {-3.0, 12.0, -1.5});
+  expect(5, {0.0, -1.5, -3.0}, {9.0, 0.0, 0.0});
+  // Torsion pi r^2 mu by the normal force, about each contact's own inward normal.
+  const double torsion = std::numbers::pi * 0.01 * 0.5;
+  expect(8, Vector3d::Zero(), {0.0, 0.0, 2.0 * torsion});
+  expect(9, Vector3d::Zero(), {0.0, 0.0, -3.0 * torsion});
+  expect(10, Vector3d::Zero(), {0.0, 0.0, -2.0 * torsion});
+  expect(11, Vector3d::Zero(), {0.0, 0.0, 3.0 * torsion});
+}
+
 }  // namespace
 }  // namespace antigrasp

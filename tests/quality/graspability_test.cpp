@@ -226,7 +226,7 @@ TEST(Graspability, EachGraspCanBeRepeatedFromTheStreamsOfItsCandidate) {
 }
 
 int Sum(const RejectedGrasps& r) {
-  return r.no_opposite + r.slips + r.jaw_blocked + r.gripper_collides;
+  return r.no_opposite + r.slips + r.jaw_blocked + r.copies + r.gripper_collides;
 }
 
 TEST(Graspability, AttemptsAreTheGraspsAndTheRejectedOfEveryReason) {

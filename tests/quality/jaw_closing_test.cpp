@@ -35,6 +35,31 @@ TEST(CloseJaws, ATiltedAxisPressesWithItsNormalPart) {
   for (const Contact& contact : *contacts) EXPECT_NEAR(contact.normal_force, std::cos(0.3), 1e-15);
 }
 
+TEST(CloseJaws, EachJawPressesWithTheNormalPartOfItsOwnFace) {
+  // A wedge: the face at -x is upright, that at +x leans by atan(1/4) and is 15 mm away at y = 0.
+  TriangleMesh wedge = shapes::Box({0.03, 0.04, 0.05});
+  for (Eigen::Vector3d& v : wedge.vertices) {
+    if (v.x() > 0.0) v.x() -= 0.25 * v.y();
+  }
+  const RayScene scene(wedge);
+  const auto contacts =
+      CloseJaws(scene, Vector3d(0.0, 0.004, 0.0), Vector3d::UnitX(), kOpening, kFriction);
+  ASSERT_TRUE(contacts.has_value());
+  EXPECT_LT(((*contacts)[0].point - Vector3d(-0.015, 0.004, 0.0)).norm(), 1e-15);
+  EXPECT_LT(((*contacts)[1].point - Vector3d(0.014, 0.004, 0.0)).norm(), 1e-15);
+  EXPECT_NEAR((*contacts)[0].normal_force, 1.0, 1e-15);
+  EXPECT_NEAR((*contacts)[1].normal_force, 4.0 / std::sqrt(17.0), 1e-15);
+  EXPECT_LT(((*contacts)[1].normal - Vector3d(4.0, 1.0, 0.0) / std::sqrt(17.0)).norm(), 1e-15);
+  // From the other side the same two change places.
+  const auto turned =
+      CloseJaws(scene, Vector3d(0.0, 0.004, 0.0), -Vector3d::UnitX(), kOpening, kFriction);
+  ASSERT_TRUE(turned.has_value());
+  EXPECT_EQ((*turned)[0].point, (*contacts)[1].point);
+  EXPECT_NEAR((*turned)[0].normal_force, 4.0 / std::sqrt(17.0), 1e-15);
+  EXPECT_FALSE(CloseJaws(scene, Vector3d(0.0, 0.004, 0.0), Vector3d::UnitX(), kOpening, 0.24));
+  EXPECT_FALSE(CloseJaws(scene, Vector3d(0.0, 0.004, 0.0), -Vector3d::UnitX(), kOpening, 0.24));
+}
+
 TEST(CloseJaws, SlipsWhenTheAxisLeavesTheFrictionCone) {
   const RayScene scene(shapes::Box({0.03, 0.04, 0.05}));
   for (const double offset : {-0.01, 0.01}) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "antigrasp/core/error.h"
+#include "tests/quality/option_lines.h"
 
 namespace antigrasp {
 namespace {
@@ -70,6 +71,78 @@ TEST(MetricOptions, EveryFieldSurvivesTheConfigurationFile) {
   ExpectEqual(read, Unusual());
 }
 
+TEST(MetricOptions, EveryKeyIsBoundToItsFieldAndEveryDefaultIsItsNumber) {
+  EXPECT_EQ(LinesOf(MetricOptions()),
+            (std::vector<std::string>{"metric.friction = 0.5",
+                                      "metric.cone_edges = 8",
+                                      "metric.finger_radius = 0.005",
+                                      "metric.torque_scale = 1000.0",
+                                      "metric.object_min_extent = 0.04",
+                                      "metric.jaw_opening = 0.05",
+                                      "metric.num_grasps = 100",
+                                      "metric.num_draws = 25",
+                                      "metric.max_attempts = 4000",
+                                      "metric.grasp_separation = 1e-04",
+                                      "metric.adaptive = false",
+                                      "metric.percentile = 75.0",
+                                      "metric.object_translation_std = 0.0025",
+                                      "metric.object_rotation_std = 0.01",
+                                      "metric.grasp_translation_std = 0.00125",
+                                      "metric.grasp_rotation_std = 0.001",
+                                      "metric.friction_std = 0.1",
+                                      "metric.collision = 'gripper'",
+                                      "gripper.palm_distance = 0.046",
+                                      "gripper.fingertip_overlap = 0.01",
+                                      "gripper.finger_width = 0.02",
+                                      "gripper.finger_thickness = 0.01",
+                                      "gripper.palm_depth = 0.084",
+                                      "gripper.palm_length = 0.08",
+                                      "gripper.palm_width = 0.05",
+                                      "gripper.approach_distance = 0.1",
+                                      "gripper.approach_angles = 16"}));
+  EXPECT_EQ(LinesOf(Unusual()), (std::vector<std::string>{"metric.friction = 0.37",
+                                                          "metric.cone_edges = 6",
+                                                          "metric.finger_radius = 0.004",
+                                                          "metric.torque_scale = 900.0",
+                                                          "metric.object_min_extent = 0.03",
+                                                          "metric.jaw_opening = 0.06",
+                                                          "metric.num_grasps = 11",
+                                                          "metric.num_draws = 12",
+                                                          "metric.max_attempts = 13",
+                                                          "metric.grasp_separation = 0.002",
+                                                          "metric.adaptive = true",
+                                                          "metric.percentile = 60.0",
+                                                          "metric.object_translation_std = 0.001",
+                                                          "metric.object_rotation_std = 0.02",
+                                                          "metric.grasp_translation_std = 0.003",
+                                                          "metric.grasp_rotation_std = 0.04",
+                                                          "metric.friction_std = 0.05",
+                                                          "metric.collision = 'jaws'",
+                                                          "gripper.palm_distance = 0.01",
+                                                          "gripper.fingertip_overlap = 0.02",
+                                                          "gripper.finger_width = 0.03",
+                                                          "gripper.finger_thickness = 0.04",
+                                                          "gripper.palm_depth = 0.05",
+                                                          "gripper.palm_length = 0.06",
+                                                          "gripper.palm_width = 0.07",
+                                                          "gripper.approach_distance = 0.08",
+                                                          "gripper.approach_angles = 9"}));
+}
+
+TEST(MetricPreset, EachIsTheseNumbers) {
+  const GripperModel yumi{0.046, 0.010, 0.020, 0.010, 0.084, 0.080, 0.050, 0.100, 16};
+  MetricOptions options;
+  ApplyMetricPreset("dexnet", &options);
+  ExpectEqual(options, {0.5, 8, 0.005, 1000.0, 0.040, 0.05, 25, 25, 4000, 1e-4, 75.0, false, 0.01,
+                        0.01, 0.005, 0.001, 0.1, "jaws", yumi});
+  ApplyMetricPreset("egad", &options);
+  ExpectEqual(options, {0.5, 8, 0.005, 100.0, 0.040, 0.05, 100, 1, 4000, 1e-4, 75.0, false, 0.0,
+                        0.0, 0.0, 0.0, 0.0, "jaws", yumi});
+  ApplyMetricPreset("default", &options);
+  ExpectEqual(options, {0.5, 8, 0.005, 1000.0, 0.040, 0.05, 100, 25, 4000, 1e-4, 75.0, false,
+                        0.0025, 0.01, 0.00125, 0.001, 0.1, "gripper", yumi});
+}
+
 TEST(MetricPreset, SetsEveryConstantWhateverWasThere) {
   for (const char* name : {"default", "dexnet", "egad"}) {
     MetricOptions a, b = Unusual();
@@ -106,9 +179,11 @@ TEST(MetricPreset, EgadIsWithoutNoiseAndHasATenthOfTheTorqueScale) {
   EXPECT_EQ(options.num_draws, 1);
   EXPECT_EQ(options.collision, "jaws");
   EXPECT_EQ(options.percentile, 75.0);
-  EXPECT_EQ(options.object_translation_std + options.object_rotation_std +
-                options.grasp_translation_std + options.grasp_rotation_std + options.friction_std,
-            0.0);
+  EXPECT_EQ(options.object_translation_std, 0.0);
+  EXPECT_EQ(options.object_rotation_std, 0.0);
+  EXPECT_EQ(options.grasp_translation_std, 0.0);
+  EXPECT_EQ(options.grasp_rotation_std, 0.0);
+  EXPECT_EQ(options.friction_std, 0.0);
 }
 
 TEST(MetricPreset, AnUnknownNameIsRefusedAndChangesNothing) {

@@ -150,6 +150,44 @@ TEST(GripperCollision, TriesTheSideAwayFromTheCentreOfMassFirstThenItsNeighbours
   EXPECT_NEAR(std::acos(second->dot(*first)), 45.0 * kDegree, 1e-3);
 }
 
+TEST(GripperCollision, TurnsTowardsApproachCrossAxisFirstThenTheOtherWay) {
+  // Eight angles from straight down on; walls beside the grasp leave the ways from the sides.
+  GripperModel model;
+  model.approach_angles = 8;
+  const TriangleMesh ball = shapes::Sphere(0.02, 3);
+  const Grasp grasp = AlongX({0.0, 0.0, 0.01}, 0.03);
+  // Step 1: -z turned by 45 degrees towards -z cross x = -y, the gripper comes from +y.
+  const TriangleMesh above = Moved(shapes::Box({0.1, 0.01, 1e-6}), 0.0, 0.0, 0.1);
+  const auto first = ReachedObject(shapes::Joined(ball, above), model).FreeApproach(grasp);
+  ASSERT_TRUE(first);
+  const double half = std::sqrt(0.5);
+  EXPECT_NEAR((*first - Vector3d(0.0, -half, -half)).norm(), 0.0, 1e-6);
+  // Blocked there as well, step -1 is next.
+  const TriangleMesh beside = Moved(shapes::Box({0.1, 0.002, 1e-6}), 0.0, 0.07, 0.08);
+  const auto second =
+      ReachedObject(shapes::Joined(shapes::Joined(ball, above), beside), model).FreeApproach(grasp);
+  ASSERT_TRUE(second);
+  EXPECT_NEAR((*second - Vector3d(0.0, half, -half)).norm(), 0.0, 1e-3);
+}
+
+TEST(GripperCollision, MeasuresFromTheCentreOfMassNotFromTheBox) {
+  // A tetrahedron of 1 cm between the fingers: its centre of mass is at 1/4 of the edge, the box's
+  // centre at 1/2. The grasp is 1 mm along +y from the one.
+  const ReachedObject object(Transformed(shapes::Tetrahedron(), 0.01, Vector3d::Zero()));
+  const auto approach = object.FreeApproach(AlongX({0.0025, 0.0035, 0.0025}, 0.005));
+  ASSERT_TRUE(approach);
+  EXPECT_NEAR((*approach + Vector3d::UnitY()).norm(), 0.0, 1e-12);
+}
+
+TEST(GripperCollision, TakesTheContactsNormalsWhereTheCentreOfMassIsOnTheGraspsLine) {
+  const ReachedObject ball(shapes::Sphere(0.01, 2));
+  Grasp grasp = AlongX(Vector3d::Zero(), 0.02);
+  grasp.contacts[1].normal = Vector3d(1.0, 0.0, 0.2).normalized();
+  EXPECT_NEAR((ball.FreeApproach(grasp).value() - Vector3d::UnitZ()).norm(), 0.0, 1e-12);
+  grasp.contacts[0].normal = Vector3d(-1.0, -0.3, 0.0).normalized();
+  EXPECT_NEAR((ball.FreeApproach(grasp).value() + Vector3d::UnitY()).norm(), 0.0, 1e-12);
+}
+
 TEST(GripperCollision, TakesMeshesOfNoOneAndManyFaces) {
   const Grasp grasp = AlongX(Vector3d::Zero(), 0.02);
   EXPECT_TRUE(ReachedObject(TriangleMesh{}).FreeApproach(grasp));

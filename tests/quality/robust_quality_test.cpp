@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "antigrasp/quality/epsilon.h"
 #include "antigrasp/quality/jaw_closing.h"
@@ -129,6 +130,89 @@ TEST(ExecutedQuality, IsZeroWhenTheGraspFails) {
   NoiseDraw no_friction;
   no_friction.friction = 0.0;
   EXPECT_EQ(ExecutedQuality(scene, kCom, grasp, options, no_friction), 0.0);
+}
+
+TEST(ExecutedQuality, UsesTheConstantsOfTheOptionsAndTheFrictionOfTheDraw) {
+  const RayScene scene(BoxMesh());
+  const Grasp grasp = GraspAcross(scene, {0.0, 0.004, 0.01});
+  MetricOptions options;
+  options.cone_edges = 5;
+  options.finger_radius = 0.007;
+  options.torque_scale = 300.0;
+  NoiseDraw draw;
+  draw.friction = 0.35;
+  const double expected = Epsilon(grasp.contacts, kCom, {0.35, 5, 0.007, 300.0});
+  EXPECT_GT(expected, 0.0);
+  EXPECT_NEAR(ExecutedQuality(scene, kCom, grasp, options, draw), expected, 1e-15);
+  // Between the cone of the draw and that of the options: a jaw slips by the draw's.
+  const auto turned = [&](double tangent, double friction) {
+    NoiseDraw turn;
+    turn.grasp_rotation = Vector3d(0.0, 0.0, std::atan(tangent));
+    turn.friction = friction;
+    return ExecutedQuality(scene, kCom, grasp, options, turn);
+  };
+  EXPECT_EQ(turned(0.3, 0.29), 0.0);
+  EXPECT_GT(turned(0.3, 0.5), 0.0);
+  EXPECT_GT(turned(0.6, 0.9), 0.0);
+  options.friction = 0.9;
+  EXPECT_EQ(turned(0.6, 0.5), 0.0);
+}
+
+TEST(ExecutedQuality, OpensTheJawsAsWideAsTheOptionsSay) {
+  // 3 cm across the box: 11 mm aside a jaw starts inside with 5 cm, outside with 6.
+  const RayScene scene(BoxMesh());
+  const Grasp grasp = GraspAcross(scene, Vector3d::Zero());
+  NoiseDraw aside;
+  aside.grasp_translation = Vector3d(0.011, 0.0, 0.0);
+  MetricOptions options;
+  EXPECT_EQ(ExecutedQuality(scene, kCom, grasp, options, aside), 0.0);
+  options.jaw_opening = 0.06;
+  EXPECT_GT(ExecutedQuality(scene, kCom, grasp, options, aside), 0.0);
+}
+
+TEST(ExecutedPose, TurnsAboutTheCentreOfMassAndTheGripperAboutItsOwnCentre) {
+  Grasp grasp;
+  grasp.center = Vector3d(1.0, 2.0, 3.0);
+  grasp.axis = Vector3d::UnitX();
+  const Vector3d com(1.0, 1.0, 1.0);
+  NoiseDraw draw;
+  draw.grasp_rotation = Vector3d(0.0, 0.0, 0.5 * std::numbers::pi);  // x to y
+  JawPose pose = ExecutedPose(grasp, com, draw);
+  EXPECT_LT((pose.center - grasp.center).norm(), 1e-15);
+  EXPECT_LT((pose.axis - Vector3d::UnitY()).norm(), 1e-15);
+  draw = {};
+  draw.object_rotation = Vector3d(0.5 * std::numbers::pi, 0.0, 0.0);  // of the object: y to z
+  pose = ExecutedPose(grasp, com, draw);
+  // The gripper is (0, 1, 2) off the com; in the turned object's frame (0, 2, -1).
+  EXPECT_LT((pose.center - Vector3d(1.0, 3.0, 0.0)).norm(), 1e-15);
+  EXPECT_LT((pose.axis - Vector3d::UnitX()).norm(), 1e-15);
+  draw.object_translation = Vector3d(0.1, 0.2, 0.4);
+  draw.grasp_translation = Vector3d(0.3, 0.0, 0.0);  // (0.2, 0.8, 1.6) off
+  pose = ExecutedPose(grasp, com, draw);
+  EXPECT_LT((pose.center - Vector3d(1.2, 2.6, 0.2)).norm(), 1e-15);
+}
+
+TEST(DrawNoise, TakesThirteenNormalNumbersInTheOrderOfTheFields) {
+  MetricOptions options;
+  options.friction = 0.4;
+  options.object_translation_std = 1.0;
+  options.object_rotation_std = 2.0;
+  options.grasp_translation_std = 3.0;
+  options.grasp_rotation_std = 4.0;
+  options.friction_std = 0.01;
+  RngStream rng(8, "noise"), plain(8, "noise");
+  for (int i = 0; i < 3; ++i) {
+    const NoiseDraw draw = DrawNoise(options, &rng);
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(draw.object_translation[k], plain.Normal());
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(draw.object_rotation[k], 2.0 * plain.Normal());
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(draw.grasp_translation[k], 3.0 * plain.Normal());
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(draw.grasp_rotation[k], 4.0 * plain.Normal());
+    EXPECT_EQ(draw.friction, 0.4 + 0.01 * plain.Normal());
+  }
+  ApplyNoisePreset("none", &options);
+  DrawNoise(options, &rng);
+  for (int k = 0; k < 13; ++k) plain.Normal();
+  EXPECT_EQ(rng.Normal(), plain.Normal()) << "as many without noise";
 }
 
 TEST(DrawNoise, HasTheStandardDeviationsOfTheOptions) {

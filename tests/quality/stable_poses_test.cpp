@@ -189,6 +189,27 @@ TEST(StablePoses, MoveWithTheObject) {
   }
 }
 
+TEST(StablePoses, StandTheRightWayUpWithTheFirstRowLevelInTheObjectsFrame) {
+  // Corners (0,0,0), e_x, e_y, e_z: the slanted face has the normal (1,1,1) / sqrt 3 and is 1 / (4
+  // sqrt 3) from the mean of the corners, the others are 1/4 away. On that face up is -(1,1,1).
+  const auto poses = Poses(shapes::Tetrahedron());
+  ASSERT_EQ(poses.size(), 4u);
+  const Matrix3d& slanted = poses[0].table_from_object;
+  EXPECT_NEAR(poses[0].com_height, 0.25 / std::sqrt(3.0), 1e-12);
+  const double third = 1.0 / std::sqrt(3.0), half = 1.0 / std::sqrt(2.0), sixth = third * half;
+  Matrix3d expected;
+  expected << half, -half, 0.0, -sixth, -sixth, 2.0 * sixth, -third, -third, -third;
+  EXPECT_NEAR((slanted - expected).norm(), 0.0, 1e-12) << slanted;
+  // The three alike in the order of their up directions; upright, row 0 is x.
+  for (int k = 0; k < 3; ++k) {
+    const StablePose& pose = poses[static_cast<std::size_t>(k) + 1];
+    EXPECT_NEAR(pose.com_height, 0.25, 1e-12);
+    EXPECT_NEAR(pose.table_from_object(2, 2 - k), 1.0, 1e-12) << k;
+    EXPECT_EQ(pose.table_from_object(0, 2), 0.0);
+  }
+  EXPECT_LT((poses[1].table_from_object - Matrix3d::Identity()).norm(), 1e-12);
+}
+
 TEST(StablePoses, DoNotCountFlatFacetsTwiceWhenTheirCornersAreRounded) {
   TriangleMesh mesh = shapes::Rotated(shapes::Box({0.04, 0.05, 0.06}), SomeRotation());
   // More corners on edges and faces, all rounded to float as a binary STL has them.

@@ -25,6 +25,15 @@ TEST(DiscretePercentile, IsTheSmallestValueWithThatShareAtOrBelow) {
   EXPECT_EQ(DiscretePercentile(Count(3), 50.0), 2.0);
 }
 
+TEST(DiscretePercentile, IsAValueOfTheSampleNeverOneBetween) {
+  // Interpolated, 75 % of 0.1, 0.2, 0.4, 0.7 were 0.475.
+  EXPECT_EQ(DiscretePercentile({0.4, 1.6, 0.1, 0.7, 0.2}, 75.0), 0.7);
+  EXPECT_EQ(DiscretePercentile({0.4, 1.6, 0.1, 0.7, 0.2}, 25.0), 0.2);
+  EXPECT_EQ(DiscretePercentile({0.4, 0.1, 0.7, 0.2}, 75.0), 0.4);
+  EXPECT_EQ(DiscretePercentile({0.4, 0.1, 0.7, 0.2}, 75.001), 0.7);
+  EXPECT_EQ(DiscretePercentile({0.4, 0.1, 0.7, 0.2}, 50.0), 0.2);
+}
+
 TEST(DiscretePercentile, EndsAreTheSmallestAndTheLargest) {
   EXPECT_EQ(DiscretePercentile(Count(10), 0.0), 1.0);
   EXPECT_EQ(DiscretePercentile(Count(10), 100.0), 10.0);
@@ -48,6 +57,16 @@ TEST(BootstrapPercentile, IsTheBinomialTailOnAHandfulOfValues) {
   // The largest of six is below the fourth with probability (3/6)^6 = 0.016, at most it with
   // (4/6)^6 = 0.088.
   EXPECT_EQ(BootstrapPercentile(Count(6), 100.0).low, 4.0);
+  // The smallest of six is above the second with (4/6)^6 = 0.088, above the third with 0.016.
+  EXPECT_EQ(BootstrapPercentile(Count(6), 0.0).high, 3.0);
+  EXPECT_EQ(BootstrapPercentile(Count(6), 0.0).low, 1.0);
+  // A tail of 2.5 %, not 5 %: the largest of four is at most the second with (1/2)^4 = 0.0625, the
+  // first with 0.0039; of five the second has (2/5)^5 = 0.010, the third 0.078; of nine the sixth
+  // has (6/9)^9 = 0.0260, the fifth 0.0050.
+  EXPECT_EQ(BootstrapPercentile(Count(4), 100.0).low, 2.0);
+  EXPECT_EQ(BootstrapPercentile(Count(5), 100.0).low, 3.0);
+  EXPECT_EQ(BootstrapPercentile(Count(9), 100.0).low, 6.0);
+  EXPECT_EQ(BootstrapPercentile({}, 75.0).high, 0.0);
 }
 
 TEST(BootstrapPercentile, AgreesWithResampling) {
@@ -84,6 +103,7 @@ TEST(MeanWithInterval, LeavesOutWhatCouldNotBeEvaluated) {
   const MeanInterval m = MeanWithInterval({nan, 1.0, nan, 3.0});
   EXPECT_EQ(m.count, 2);
   EXPECT_DOUBLE_EQ(m.mean, 2.0);
+  EXPECT_NEAR(m.half_width, 1.96, 1e-15);  // variance 2, of the mean of two 1
 }
 
 TEST(MeanWithInterval, SaysNothingAboutNothing) {

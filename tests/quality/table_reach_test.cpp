@@ -104,6 +104,50 @@ TEST(TableReach, TakesTheTableFromThePose) {
   EXPECT_NEAR(approach->x(), -1.0, 1e-12);
 }
 
+TEST(TableReach, StandsAtTheHeightOfTheCentreOfMass) {
+  // A tetrahedron of 2 cm on the face z = 0: its centre of mass is 5 mm up, its box's centre 10 mm.
+  // The fingertips are 10 mm below the grasp, which leaves 0.1 mm above the table or below it.
+  const TriangleMesh mesh = Transformed(shapes::Tetrahedron(), 0.02, Vector3d::Zero());
+  const RayScene scene(mesh);
+  StablePose pose;
+  pose.com_height = 0.005;
+  MetricOptions metric;
+  metric.gripper.approach_angles = 1;
+  const TableReach reach(mesh, scene, metric, {});
+  EXPECT_TRUE(reach.Approach(Along(Vector3d::UnitX(), {0.005, 0.005, 0.0101}), pose));
+  EXPECT_FALSE(reach.Approach(Along(Vector3d::UnitX(), {0.005, 0.005, 0.0099}), pose));
+}
+
+TEST(TableReach, TurnsTowardsWayInCrossAxisFirst) {
+  // As above, from the side: 90 degrees from straight down in steps of 22.5, -z cross x = -y.
+  Standing wall({0.03, 0.03, 0.2});
+  wall.table.approach_cone = 90.0;
+  const auto approach = wall.Approach(Along(Vector3d::UnitX(), {0, 0, 0.02}));
+  ASSERT_TRUE(approach.has_value());
+  EXPECT_LT(approach->y(), -0.5);
+  const auto turned = wall.Approach(Along(-Vector3d::UnitX(), {0, 0, 0.02}));
+  ASSERT_TRUE(turned.has_value());
+  EXPECT_NEAR((*turned - Vector3d(0.0, -approach->y(), approach->z())).norm(), 0.0, 1e-12);
+}
+
+TEST(TableReach, OpensTheGripperAsWideAsTheMetricSays) {
+  Standing box({0.045, 0.03, 0.04});
+  const Grasp grasp = Along(Vector3d::UnitX(), Vector3d::Zero());
+  EXPECT_TRUE(box.Approach(grasp).has_value());
+  box.metric.jaw_opening = 0.044;
+  EXPECT_FALSE(box.Approach(grasp).has_value());
+  // The way in begins 0.1 m further out, where a narrow lid 0.15 m above may stand in it.
+  box.metric.jaw_opening = 0.05;
+  box.metric.gripper.approach_angles = 1;
+  const TriangleMesh with_lid =
+      shapes::Joined(box.mesh, Transformed(shapes::Box({0.2, 0.2, 1e-9}), 1.0, {0, 0, 0.15}));
+  const RayScene scene(with_lid);
+  const StablePose pose{Eigen::Matrix3d::Identity(), 1.0, 0.02};
+  EXPECT_FALSE(TableReach(with_lid, scene, box.metric, {}).Approach(grasp, pose));
+  box.metric.gripper.approach_distance = 0.01;
+  EXPECT_TRUE(TableReach(with_lid, scene, box.metric, {}).Approach(grasp, pose));
+}
+
 TEST(TableReach, LooksAtTheConeAloneWithoutAGripper) {
   Standing box({0.03, 0.03, 0.04});
   box.metric.collision = "jaws";

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "antigrasp/core/error.h"
+#include "tests/quality/option_lines.h"
 #include "tests/quality/random_grasps.h"
 #include "tests/quality/reference_cases.h"
 
@@ -145,6 +146,21 @@ TEST(WrenchResistance, TwistAboutTheLineIsHeldByTorsionAloneUpToTheLimit) {
   EXPECT_FALSE(OnBall(Torque(66.8, 0.0, 0.0), exact, hard).resisted);
 }
 
+TEST(WrenchResistance, ALimitIsOfEachContactNotOfBothTogether) {
+  // Pushing the ball along +x is contact 1's work alone, its 8 edges have 1 along x each; contact 2
+  // can only push back. 20 is the limit of one, 40 would be that of both.
+  WrenchResistanceOptions exact;
+  exact.tolerance = 1e-8;
+  const auto most = OnBall(Force(20.0, 0.0, 0.0), exact);
+  ASSERT_TRUE(most.resisted);
+  EXPECT_NEAR(most.coefficients.head<8>().sum(), 20.0, 1e-6);
+  EXPECT_NEAR(most.coefficients.segment<8>(8).sum(), 0.0, 1e-6);
+  EXPECT_FALSE(OnBall(Force(20.1, 0.0, 0.0), exact).resisted);
+  const auto back = OnBall(Force(-20.0, 0.0, 0.0), exact);
+  EXPECT_NEAR(back.coefficients.head<8>().sum(), 0.0, 1e-6);
+  EXPECT_NEAR(back.coefficients.segment<8>(8).sum(), 20.0, 1e-6);
+}
+
 TEST(WrenchResistance, DexNetAsksForTheWrenchItselfNotForItsOpposite) {
   // Both contacts under the object: they push up, they cannot pull down.
   const std::array<Contact, 2> contacts{Contact{Vector3d(-0.02, 0.0, 0.0), -Vector3d::UnitZ(), 1.0},
@@ -212,6 +228,24 @@ TEST(WrenchResistance, NothingToResistIsResistedByNoForceAtAll) {
   EXPECT_TRUE(result.resisted);
   EXPECT_EQ(result.coefficient_norm, 0.0);
   EXPECT_NEAR(result.quality, 1e9, 1.0);
+}
+
+TEST(WrenchResistanceOptions, EveryKeyIsBoundToItsFieldAndEveryDefaultIsItsNumber) {
+  EXPECT_EQ(
+      LinesOf(WrenchResistanceOptions()),
+      (std::vector<std::string>{"wrench.force_limit = 20.0", "wrench.tolerance = 0.001",
+                                "wrench.regularizer = 1e-10", "wrench.oppose_target = false",
+                                "wrench.metric_torque = false", "wrench.limit_cone_only = false"}));
+  // One flag at a time: three that are all set hide two that have changed places.
+  for (int flag = 0; flag < 3; ++flag) {
+    const auto text = [flag](int which) { return flag == which ? "true" : "false"; };
+    EXPECT_EQ(LinesOf(WrenchResistanceOptions{3.0, 0.25, 1e-6, flag == 0, flag == 1, flag == 2}),
+              (std::vector<std::string>{"wrench.force_limit = 3.0", "wrench.tolerance = 0.25",
+                                        "wrench.regularizer = 1e-06",
+                                        std::string("wrench.oppose_target = ") + text(0),
+                                        std::string("wrench.metric_torque = ") + text(1),
+                                        std::string("wrench.limit_cone_only = ") + text(2)}));
+  }
 }
 
 TEST(WrenchResistanceOptions, EveryFieldSurvivesTheConfigurationFile) {
