@@ -51,6 +51,13 @@ TEST(EpsilonMethods, ClosedFormEqualsTheGeneralMethodInsideThePyramids) {
   EXPECT_GT(compared, 3000);
 }
 
+TEST(EpsilonMethods, InstructionSetsHaveTheirNamesAndTheBaselineIsAlwaysThere) {
+  EXPECT_STREQ(Name(SimdLevel::kBaseline), "baseline");
+  EXPECT_STREQ(Name(SimdLevel::kAvx2), "avx2");
+  EXPECT_STREQ(Name(SimdLevel::kAvx512), "avx512");
+  EXPECT_EQ(SupportedSimdLevels().front(), SimdLevel::kBaseline);
+}
+
 TEST(EpsilonMethods, TorsionOfSimilarSizeOnBothContactsUsesTheRidges) {
   // Large fingers and short arms make the torsion rows cross C, which the usual constants do not.
   int compared = 0;

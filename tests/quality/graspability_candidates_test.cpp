@@ -140,6 +140,7 @@ TEST(Graspability, SummarisesAtTheOptionsPercentileAndTellsZerosApart) {
   for (const ScoredGrasp& scored : g.grasps) {
     qualities.push_back(scored.quality);
     nonzero += scored.quality > 0.0 ? 1 : 0;
+    EXPECT_EQ(scored.draws, 1);
   }
   std::sort(qualities.begin(), qualities.end());
   ASSERT_EQ(qualities.size(), 100u);

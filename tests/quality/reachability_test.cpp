@@ -116,8 +116,12 @@ TEST(GripperCollision, OneFingerInsideAThickWallIsEnough) {
   short_way.palm_depth = short_way.approach_distance = 0.0;
   short_way.palm_length = 0.02;
   for (const auto& [gap, free] : {std::pair(0.024, false), std::pair(0.036, true)}) {
-    const ReachedObject object(Moved(shapes::Box({1.0, 1.0, 1.0}), 0.5 + gap, 0.0, 0.0), short_way);
-    EXPECT_EQ(object.FreeApproach(AlongX(Vector3d::Zero(), 0.02)).has_value(), free) << gap;
+    for (const double side : {-1.0, 1.0}) {
+      const ReachedObject object(Moved(shapes::Box({1.0, 1.0, 1.0}), side * (0.5 + gap), 0.0, 0.0),
+                                 short_way);
+      EXPECT_EQ(object.FreeApproach(AlongX(Vector3d::Zero(), 0.02)).has_value(), free)
+          << side * gap;
+    }
   }
 }
 
