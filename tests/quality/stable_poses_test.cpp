@@ -210,6 +210,16 @@ TEST(StablePoses, StandTheRightWayUpWithTheFirstRowLevelInTheObjectsFrame) {
   EXPECT_LT((poses[1].table_from_object - Matrix3d::Identity()).norm(), 1e-12);
 }
 
+TEST(StablePoses, KeepFortyFourBitsSoThatEqualMeshesHaveEqualPoses) {
+  for (const StablePose& pose : Poses(shapes::Rotated(shapes::Box({1, 2, 5}), SomeRotation()))) {
+    for (const double number : {pose.probability, pose.com_height}) {
+      int exponent = 0;
+      const double kept = std::frexp(number, &exponent) * 0x1p44;
+      EXPECT_EQ(kept, std::round(kept)) << number;
+    }
+  }
+}
+
 TEST(StablePoses, DoNotCountFlatFacetsTwiceWhenTheirCornersAreRounded) {
   TriangleMesh mesh = shapes::Rotated(shapes::Box({0.04, 0.05, 0.06}), SomeRotation());
   // More corners on edges and faces, all rounded to float as a binary STL has them.

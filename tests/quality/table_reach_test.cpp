@@ -89,6 +89,26 @@ TEST(TableReach, TurnsAsideWhereTheSteepestWayIsBlocked) {
   EXPECT_GT(std::abs(approach->y()), 0.5);
 }
 
+TEST(TableReach, KeepsTheWholeWayInAboveTheTable) {
+  // A lid 5 cm above the grasp leaves the way from below alone: the gripper then ends 46 + 84 mm
+  // below the grasp and comes from 100 mm further down.
+  const TriangleMesh mesh =
+      shapes::Joined(shapes::Box({0.03, 0.03, 0.04}),
+                     Transformed(shapes::Box({0.2, 0.2, 1e-9}), 1.0, {0, 0, 0.05}));
+  const RayScene scene(mesh);
+  MetricOptions metric;
+  metric.gripper.approach_angles = 2;
+  const TableReach reach(mesh, scene, metric, {180.0, 0.0});
+  const Grasp grasp = Along(Vector3d::UnitX(), Vector3d::Zero());
+  for (const double height : {0.129, 0.131, 0.229, 0.231}) {
+    const auto approach = reach.Approach(grasp, {Eigen::Matrix3d::Identity(), 1.0, height});
+    EXPECT_EQ(approach.has_value(), height > 0.23) << height;
+    if (approach) {
+      EXPECT_NEAR(approach->z(), 1.0, 1e-12);
+    }
+  }
+}
+
 TEST(TableReach, TakesTheTableFromThePose) {
   Standing box({0.03, 0.03, 0.04});
   // Upside down and on its side.
