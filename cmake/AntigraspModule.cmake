@@ -21,8 +21,6 @@ function(antigrasp_test name)
   target_link_libraries(${name}_test PRIVATE antigrasp_options ${ARG_LIBS} antigrasp_test_support
                                              GTest::gtest GTest::gtest_main)
   target_compile_options(${name}_test PRIVATE -O1)  # a quarter faster to compile than -O3
-  target_compile_definitions(${name}_test PRIVATE
-                             ANTIGRASP_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
   gtest_discover_tests(${name}_test TEST_PREFIX ${name}/ DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 600 LABELS "${name};${ARG_LABELS}")
 endfunction()
