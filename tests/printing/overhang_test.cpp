@@ -48,5 +48,23 @@ TEST(Overhang, WhatLiesWithinTheFirstLayerRestsOnThePlate) {
   EXPECT_NEAR(MeasureOverhang(pair, Vector3d::UnitZ(), 45.0, 0.15).contact_area, 2.0, 1e-12);
 }
 
+TEST(Overhang, WhichWayIsUpMakesTheDifference) {
+  // Corners 0, e_x, e_y, e_z: three sides of area 1 / 2 along the axes and the slope (1, 1, 1) of
+  // sqrt(3) / 2, which is asin(1 / sqrt(3)) = 35.26 degrees from vertical along each axis.
+  const TriangleMesh corner = shapes::Tetrahedron();
+  const double slope = 0.5 * std::sqrt(3.0), whole = 1.5 + slope;
+  EXPECT_EQ(MeasureOverhang(corner, Vector3d::UnitZ(), 0.0, 0.01).share, 0.0);
+  EXPECT_NEAR(MeasureOverhang(corner, Vector3d::UnitZ(), 0.0, 0.01).contact_area, 0.5, 1e-12);
+  EXPECT_NEAR(MeasureOverhang(corner, -Vector3d::UnitZ(), 35.2, 0.01).share, slope / whole, 1e-12);
+  EXPECT_EQ(MeasureOverhang(corner, -Vector3d::UnitZ(), 35.3, 0.01).share, 0.0);
+  EXPECT_EQ(MeasureOverhang(corner, -Vector3d::UnitZ(), 35.2, 0.01).contact_area, 0.0);
+  // Without a layer at all the bottom face still rests, the ceiling of 90 degrees hangs over.
+  EXPECT_NEAR(MeasureOverhang(corner, Vector3d::UnitZ(), 89.0, 0.0).contact_area, 0.5, 1e-12);
+  const TriangleMesh raised =
+      shapes::Joined(corner, Transformed(shapes::Cube(), 1.0, {0.0, 0.0, 5.0}));
+  EXPECT_NEAR(MeasureOverhang(raised, Vector3d::UnitZ(), 89.0, 0.0).share, 1.0 / (6.0 + whole),
+              1e-12);
+}
+
 }  // namespace
 }  // namespace antigrasp

@@ -59,6 +59,30 @@ TEST(WallThickness, SidesThatFaceEachOtherNowhereAreNoWalls) {
   EXPECT_FALSE(MeasureWalls(TriangleMesh()).smallest);
 }
 
+TEST(WallThickness, SidesAreAWallUpToTheAngleBetweenThem) {
+  // A wedge of 40 degrees with its edge along y, 1 long in x and 9 wide: its slanted sides are 40
+  // degrees from parallel, its two ends face each other squarely.
+  const double h = std::tan(20.0 * std::numbers::pi / 180.0);
+  const TriangleMesh wedge{
+      {{0, 0, 0}, {0, 9, 0}, {1, 0, h}, {1, 9, h}, {1, 0, -h}, {1, 9, -h}},
+      {{0, 3, 1}, {0, 2, 3}, {0, 1, 5}, {0, 5, 4}, {2, 4, 5}, {2, 5, 3}, {0, 4, 2}, {1, 3, 5}}};
+  EXPECT_LT(*MeasureWalls(wedge, {.opposite_angle = 40.5}).smallest, 0.4);
+  EXPECT_NEAR(*MeasureWalls(wedge, {.opposite_angle = 39.5}).smallest, 9.0, 1e-3);
+  EXPECT_LT(*MeasureWalls(wedge).smallest, 0.4);  // the default is 45 degrees
+}
+
+TEST(WallThickness, TheSmallestOfTwoWallsIsNamedWithItsPlace) {
+  const TriangleMesh thin = shapes::Box({1.0, 1.0, 0.2});
+  const TriangleMesh thick = Transformed(shapes::Box({1.0, 1.0, 0.5}), 1.0, {5.0, 0.0, 0.0});
+  for (const TriangleMesh& both : {shapes::Joined(thin, thick), shapes::Joined(thick, thin)}) {
+    const WallThickness walls = MeasureWalls(both, {.thin = 0.3});
+    EXPECT_NEAR(*walls.smallest, 0.2, 1e-6);
+    EXPECT_LT(walls.at.x(), 1.0);
+    // Two faces of area 1 of a surface of 2 + 4 x 0.2 + 2 + 4 x 0.5.
+    EXPECT_NEAR(walls.thin_share, 2.0 / 6.8, 0.03);
+  }
+}
+
 TEST(WallThickness, ANeedleIsThinWhereItEnds) {
   const TriangleMesh needle = Cone(0.1, 2.0);
   const WallThickness walls = MeasureWalls(needle, {.samples = 20000, .thin = 0.05});

@@ -16,12 +16,15 @@ TEST(ContactSheet, SetsObjectsInRowsForAnyNumberOfThreads) {
   EXPECT_EQ(sheet.width, 120);
   EXPECT_EQ(sheet.height, 80);
   EXPECT_EQ(sheet.pixels, ContactSheet(rows, view, 3).pixels);
-  const Image tile = RenderMesh(ball, view);
+  const Image tile = RenderMesh(ball, view), first = RenderMesh(cube, view);
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 40; ++x) {
+      EXPECT_EQ(sheet.At(x, y), first.At(x, y));
       EXPECT_EQ(sheet.At(80 + x, y), tile.At(x, y));
       EXPECT_EQ(sheet.At(x, 40 + y), tile.At(x, y));
-      EXPECT_EQ(sheet.At(40 + x, y), (Rgb{255, 255, 255}));
+      EXPECT_EQ(sheet.At(40 + x, y), (Rgb{255, 255, 255}));  // null
+      EXPECT_EQ(sheet.At(40 + x, 40 + y), (Rgb{255, 255, 255}));
+      EXPECT_EQ(sheet.At(80 + x, 40 + y), (Rgb{255, 255, 255}));
     }
   }
 }
