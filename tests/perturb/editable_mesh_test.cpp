@@ -103,6 +103,62 @@ TEST(EditableMesh, KeepsFacesWithinTheAngleOfTheStart) {
   EXPECT_EQ(mesh.TryMove(0, corner), MoveVerdict::kOk);
 }
 
+TEST(EditableMesh, TheStartIsTheFirstMeshAndAMoveIsMeasuredByTheLast) {
+  // The corner of a slab 2 wide lifted in steps of about 2 degrees each.
+  MoveLimits limits;
+  limits.max_turn_from_start = 5 * kPi / 180;
+  limits.max_turn_per_move = 3 * kPi / 180;
+  const auto lifted = [&](EditableMesh* mesh, double degrees) {
+    // The nearest far edge of the corner's faces at the top is the diagonal, sqrt 2 away, or a leg.
+    const Vector3d corner = shapes::Box({2, 2, 2}).vertices[7];
+    return mesh->TryMove(7, corner + Vector3d(0, 0, 2 * std::tan(degrees * kPi / 180)));
+  };
+  EditableMesh mesh(shapes::Box({2, 2, 2}), limits);
+  EXPECT_EQ(lifted(&mesh, 3.1 * std::sqrt(2.0)), MoveVerdict::kInverted);
+  for (const double degrees : {1.5, 3.0}) {
+    ASSERT_EQ(lifted(&mesh, degrees), MoveVerdict::kOk);
+    mesh.Commit();
+  }
+  // 5.2 at a leg: 2.2 from the last, beyond 5 from the first.
+  EXPECT_EQ(lifted(&mesh, 5.2), MoveVerdict::kTurned);
+  limits.max_turn_from_start = kPi;
+  EditableMesh free(shapes::Box({2, 2, 2}), limits);
+  for (double degrees = 1.5; degrees < 12.0; degrees += 1.5) {
+    ASSERT_EQ(lifted(&free, degrees), MoveVerdict::kOk);
+    free.Commit();
+  }
+}
+
+TEST(EditableMesh, AFaceMayBecomeAsFlatAsAThousandthOfItsLongestEdge) {
+  // A tetrahedron over a triangle whose height, 1 on an edge of 2, is pressed down.
+  const TriangleMesh start{{{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0.25, 1}},
+                           {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  MoveLimits limits = OnlyIntersections();
+  limits.check_intersections = false;
+  limits.min_height = MoveLimits().min_height;
+  EXPECT_EQ(limits.min_height, 1e-3);
+  EditableMesh mesh(start, limits);
+  EXPECT_EQ(mesh.TryMove(2, {0, 0.00199, 0}), MoveVerdict::kDegenerate);
+  EXPECT_EQ(mesh.TryMove(2, {0, 0.00201, 0}), MoveVerdict::kOk);
+}
+
+TEST(EditableMesh, IntersectionsAreTestedNowOrLaterAsAsked) {
+  // A corner of a flat box pushed through its other side.
+  EditableMesh mesh(shapes::Box({1.0, 1.0, 0.1}), OnlyIntersections());
+  const VertexMove through{0, mesh.Position(0) + Vector3d(0.3, 0.3, 0.3)};
+  EXPECT_EQ(mesh.TryMove(std::span(&through, 1)), MoveVerdict::kIntersects);
+  EXPECT_EQ(mesh.Position(0), InSinglePrecision(shapes::Box({1.0, 1.0, 0.1})).vertices[0]);
+  EXPECT_EQ(mesh.TryMove(std::span(&through, 1), false), MoveVerdict::kOk);
+  EXPECT_TRUE(mesh.ChangedFacesIntersect());
+  mesh.Undo();
+  EXPECT_FALSE(mesh.ChangedFacesIntersect());
+  MoveLimits limits = OnlyIntersections();
+  limits.check_intersections = false;
+  EditableMesh unchecked(shapes::Box({1.0, 1.0, 0.1}), limits);
+  EXPECT_EQ(unchecked.TryMove(std::span(&through, 1)), MoveVerdict::kOk);
+  EXPECT_TRUE(unchecked.ChangedFacesIntersect());
+}
+
 TEST(EditableMesh, MovesSeveralVerticesTogether) {
   EditableMesh mesh(shapes::Box({2, 2, 2}));
   std::vector<VertexMove> moves;

@@ -57,6 +57,41 @@ TEST(PairSampler, RaysAndAreasPreferLargeSides) {
   }
 }
 
+TEST(PairSampler, DrawsPairsInProportionToTheProductOfTheirAreas) {
+  RngStream rng(5, "sampler");
+  // Triangles of 1 / 2 on the squares and of 1 / 4 on the four sides: 4 pairs of weight 1 / 4 and
+  // 8 of 1 / 16, so that two thirds of the draws are of the squares. (One face by area alone would
+  // give a half, none a third, areas squared eight ninths.)
+  const EditableMesh mesh(shapes::Box({1, 1, 0.5}));
+  const PairSampler sampler(mesh, {}, PairDraw::kArea);
+  int large = 0;
+  constexpr int kDraws = 4000;
+  for (int i = 0; i < kDraws; ++i) {
+    large += std::abs(mesh.Normal(sampler.Draw(&rng)->first).z()) > 0.9 ? 1 : 0;
+  }
+  EXPECT_NEAR(large / static_cast<double>(kDraws), 2.0 / 3.0, 0.035);  // 5 standard errors
+}
+
+TEST(PairSampler, ARayLeavesThroughTheFaceItNames) {
+  RngStream rng(6, "sampler");
+  // Between the two plates of a U a ray would leave the object, and enter it again: it is the first
+  // face from inside that counts, half a unit away, not the outermost one.
+  const TriangleMesh first = shapes::Box({1, 1, 0.5});
+  const EditableMesh mesh(shapes::Joined(first, Transformed(first, 1.0, {0, 0, 2})));
+  const PairSampler sampler(mesh, {0.1}, PairDraw::kRay);
+  for (int i = 0; i < 200; ++i) {
+    const auto pair = sampler.Draw(&rng);
+    ASSERT_TRUE(pair);
+    EXPECT_EQ(pair->first < 12, pair->second < 12);
+    EXPECT_LT(mesh.Normal(pair->first).dot(mesh.Normal(pair->second)), -0.99);
+  }
+  // Rays are not longer than the jaws open: 0.6 is between the plate's height and its sides.
+  const PairSampler narrow(mesh, {0.1, 0.6}, PairDraw::kRay);
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_GT(std::abs(mesh.Normal(narrow.Draw(&rng)->first).z()), 0.9);
+  }
+}
+
 TEST(PairSampler, FollowsAMovedMeshAndKnowsWhenThereIsNoPair) {
   RngStream rng(4, "sampler");
   const EditableMesh tetrahedron(shapes::RegularTetrahedron());

@@ -99,14 +99,14 @@ TEST(PerturbRandomly, KeepsEveryNormalWithinAlphaAndLowersTheNumberOfPairs) {
 TEST(PerturbRandomly, TheLimitOfAStepLetsNormalsDriftAndTheGuardKeepsASolid) {
   RandomPerturbOptions options;
   options.limit = "step";
-  options.iterations = 3000;
-  const TriangleMesh mesh = shapes::Sphere(1.0, 3);
+  options.iterations = 800;
+  const TriangleMesh mesh = shapes::Sphere(1.0, 2);
   const PerturbResult guarded = Perturbed(mesh, options);
   EXPECT_EQ(guarded.failure, "");
   EXPECT_GT(CompareNormals(guarded.start, guarded.mesh).largest, 30.0);
   PerturbOptions unguarded;
   unguarded.unchecked = true;
-  options.iterations = 30000;
+  options.iterations = 8000;
   options.step = "largest";
   EXPECT_NE(Perturbed(mesh, options, unguarded).failure, "");  // the literal algorithm breaks it
   const PerturbResult longer = Perturbed(mesh, options);

@@ -63,6 +63,78 @@ TEST(PerturbAndScore, GivesNoNumbersForWhatIsNoSolid) {
   }
 }
 
+TEST(PerturbAndScore, EveryNumberIsOfItsOwnMesh) {
+  // Three boxes that nothing confuses: the object, what the algorithm began on, what it made.
+  const TriangleMesh object = shapes::Box({1.0, 2.0, 3.0});
+  const TriangleMesh start = shapes::Box({1.0, 2.75, 3.0});
+  TriangleMesh made = start;
+  for (Eigen::Vector3d& v : made.vertices) {
+    if (v.x() > 0 && v.z() > 0) v.z() += std::tan(0.1);  // the top tilts by 0.1 rad
+  }
+  made = InSinglePrecision(made);
+  PerturbSettings settings = Quick(1);
+  settings.seed = 5;
+  settings.metric.friction = 0.3;
+  settings.metric.object_min_extent = 0.04;
+  settings.common.max_width = 0.1;
+  settings.common.history = true;
+  std::uint64_t drawn = 0;
+  settings.method = [&](const TriangleMesh& mesh, const PairLimits& pairs,
+                        const PerturbOptions& common, RngStream* rng, const ProgressFn& progress) {
+    EXPECT_EQ(mesh.vertices, object.vertices);
+    EXPECT_NEAR(pairs.cone_angle, std::atan(0.3), 1e-15);
+    EXPECT_NEAR(pairs.max_width, 0.1 / 0.04, 1e-12);  // the smallest extent, 1, is 0.04 m
+    EXPECT_TRUE(common.history);
+    drawn = rng->NextU64();
+    progress(3, 9);
+    PerturbResult result;
+    result.start = start;
+    result.mesh = made;
+    return result;
+  };
+  std::int64_t reported = 0;
+  const ScoredPerturbation s =
+      PerturbAndScore(object, settings, 7,
+                      [&](std::int64_t done, std::int64_t total) { reported = 10 * done + total; });
+  EXPECT_EQ(reported, 39);
+  EXPECT_EQ(drawn, RngStream(5, "perturb", 7).NextU64());
+  const auto score = [&](const TriangleMesh& mesh) {
+    return EvaluateGraspability(mesh, settings.metric, 5, 7).value;
+  };
+  EXPECT_EQ(s.before.vertices, object.vertices);
+  EXPECT_EQ(s.graspability_before, score(object));
+  EXPECT_EQ(s.graspability_after, score(made));
+  EXPECT_NE(s.graspability_before, s.graspability_after);
+  const PairLimits limits{std::atan(0.3), 2.5};
+  EXPECT_EQ(s.pairs_before, CountAntipodalPairs(object, limits));
+  EXPECT_EQ(s.pairs_after, CountAntipodalPairs(made, limits));
+  EXPECT_NE(s.pairs_before, s.pairs_after);
+  // One of six sides, 1 x 2.75 of 2 (2.75 + 3 + 8.25).
+  EXPECT_NEAR(s.normals.largest, 0.1 * 180.0 / M_PI, 1e-4);
+  EXPECT_NEAR(s.normals.mean, 0.1 * 180.0 / M_PI * 2.75 / 28.0, 1e-4);
+  // Half of the tilt's height more over the whole top.
+  const double volume = 1.0 * 2.75 * (3.0 + 0.5 * std::tan(0.1));
+  EXPECT_NEAR(s.similarity.volume_change, 100.0 * (volume - 6.0) / 6.0, 1e-4);
+}
+
+TEST(KappaReduction, DividesMeansAndNotObjectByObject) {
+  // Means 2 and 1.6: a fall by 20 %. (Object by object it is 50 % and 10 %.) Residuals about the
+  // ratio 0.8 are (0.5 - 0.8) / 2 and (2.7 - 2.4) / 2, of the mean before: deviation 0.15 sqrt 2,
+  // standard error 0.15.
+  const MeanInterval fall = KappaReduction({1.0, 3.0}, {0.5, 2.7});
+  EXPECT_NEAR(fall.mean, 20.0, 1e-12);
+  EXPECT_NEAR(fall.half_width, 1.96 * 15.0, 0.01);
+  // The other way it is a rise by a quarter, of the mean that was before.
+  const MeanInterval rise = KappaReduction({0.5, 2.7}, {1.0, 3.0});
+  EXPECT_NEAR(rise.mean, -25.0, 1e-12);
+  EXPECT_NEAR(rise.half_width, 1.96 * 100.0 * (1.0 - 1.25 * 0.5) / 1.6, 0.01);
+  // Pairs are left out together: 2 -> 1 and 4 -> 1 are left.
+  const double nan = std::nan("");
+  const MeanInterval left = KappaReduction({2.0, nan, 4.0, 9.0}, {1.0, 5.0, 1.0, nan});
+  EXPECT_NEAR(left.mean, 100.0 * (1.0 - 2.0 / 6.0), 1e-12);
+  EXPECT_EQ(left.count, 2);
+}
+
 TEST(KappaReduction, IsTheFallOfTheMeanWithAPairedInterval) {
   // Every object falls by a tenth: no doubt about the ratio.
   const MeanInterval exact = KappaReduction({1, 2, 3, 10}, {0.9, 1.8, 2.7, 9.0});
