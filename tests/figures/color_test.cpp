@@ -30,6 +30,22 @@ TEST(Color, SignedDistancesAreBlueOutsideOrangeInsideAndPaleAtTheSurface) {
   EXPECT_GT(SignedColor(0.0).r + SignedColor(0.0).g + SignedColor(0.0).b, 2.8);
 }
 
+TEST(Color, TheEndsAndTheMiddlesHaveTheirNumbers) {
+  const auto near = [](const Color& c, double r, double g, double b) {
+    return std::abs(c.r - r) + std::abs(c.g - g) + std::abs(c.b - b) < 1e-12 && c.a == 1.0;
+  };
+  EXPECT_TRUE(near(ReliabilityColor(0.0), 0.84, 0.10, 0.10));
+  EXPECT_TRUE(near(ReliabilityColor(1.0), 0.10, 0.62, 0.20));
+  EXPECT_TRUE(near(ReliabilityColor(0.25), 0.655, 0.23, 0.125));
+  EXPECT_TRUE(near(SignedColor(-1.0), 0.13, 0.33, 0.62));
+  EXPECT_TRUE(near(SignedColor(0.0), 0.97, 0.97, 0.97));
+  EXPECT_TRUE(near(SignedColor(1.0), 0.80, 0.36, 0.05));
+  EXPECT_TRUE(near(SignedColor(-0.25), 0.76, 0.81, 0.8825));
+  EXPECT_TRUE(near(SignedColor(0.5), 0.885, 0.665, 0.51));
+  EXPECT_TRUE(Same(SignedColor(-7.0), SignedColor(-1.0)));
+  EXPECT_TRUE(Same(SignedColor(7.0), SignedColor(1.0)));
+}
+
 TEST(Color, NoNumberIsGrey) {
   for (const Color& c : {ReliabilityColor(std::nan("")), SignedColor(std::nan(""))}) {
     EXPECT_EQ(c.r, c.g);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "antigrasp/core/atomic_file.h"
+#include "tests/figures/pixels.h"
 #include "tests/support/shapes.h"
 #include "tests/support/well_formed.h"
 
@@ -71,6 +72,141 @@ TEST(GraspFigure, AxesAreDrawnFromRedToGreen) {
   }
   EXPECT_GT(red, 5);
   EXPECT_GT(green, 5);
+}
+
+// A cube as large as all others, grasped along y at these heights; scored twice as large.
+GraspedObject GraspedAt(const std::vector<std::pair<double, double>>& height_and_quality) {
+  GraspedObject object{"", "", shapes::Cube(), {}};
+  object.score.scale = 2.0;
+  for (const auto& [z, quality] : height_and_quality) {
+    ScoredGrasp grasp;
+    grasp.grasp.contacts[0].point = 2.0 * Eigen::Vector3d(0.0, -0.5, z);
+    grasp.grasp.contacts[1].point = 2.0 * Eigen::Vector3d(0.0, 0.5, z);
+    grasp.grasp.axis = Eigen::Vector3d::UnitY();
+    grasp.quality = quality;
+    object.score.grasps.push_back(grasp);
+  }
+  return object;
+}
+
+// From +x, y to the right, at two pixels a point; the picture is the first cell.
+Image SeenFromX(const TempFolder& folder, GraspFigure figure, int columns) {
+  FigureOptions options;
+  options.width_mm = 90.0;
+  options.dpi = 144.0;
+  options.threads = 1;
+  options.columns = columns;
+  options.view.azimuth = options.view.elevation = 0.0;
+  WriteGraspFigure(folder / "f.png", figure, options);
+  return ReadPng(folder / "f.png");
+}
+
+bool IsRed(const Rgb& p) { return p[0] > p[1] + 60 && p[0] > p[2] + 60; }
+bool IsGreen(const Rgb& p) { return p[1] > p[0] + 50 && p[1] > p[2] + 50; }
+
+TEST(GraspFigure, TheMoreReliableAxisIsGreenAndStandsAtItsHeight) {
+  const TempFolder folder;
+  for (const double sign : {1.0, -1.0}) {
+    GraspFigure figure;
+    figure.objects.push_back(GraspedAt({{0.3 * sign, 0.9}, {-0.3 * sign, 0.1}}));
+    const Image image = SeenFromX(folder, figure, 1);
+    const double side = image.width - 16.0;  // four points at either border
+    const Area top{8.0, 8.0, side, 0.5 * side}, bottom{8.0, 8.0 + 0.5 * side, side, 0.5 * side};
+    const auto green = pixels::Find(image, sign > 0 ? top : bottom, &IsGreen);
+    const auto red = pixels::Find(image, sign > 0 ? bottom : top, &IsRed);
+    EXPECT_GT(green.count, 20);
+    EXPECT_GT(red.count, 20);
+    EXPECT_EQ(pixels::Find(image, sign > 0 ? top : bottom, &IsRed).count, 0);
+    EXPECT_EQ(pixels::Find(image, sign > 0 ? bottom : top, &IsGreen).count, 0);
+    // The picture is 1.24 cubes high: 0.3 of a cube above its middle.
+    EXPECT_NEAR(0.5 * (green.top + green.bottom) - (8.0 + 0.5 * side), -0.3 * sign * side / 1.24,
+                2.0);
+    // 0.14 half sides beyond the cube on both sides.
+    EXPECT_NEAR(green.left - 8.0, (0.5 - 0.5 / 1.24 - 0.07) * side, 3.0);
+    EXPECT_NEAR(green.right - 8.0, (0.5 + 0.5 / 1.24 + 0.07) * side, 3.0);
+  }
+}
+
+TEST(GraspFigure, OfManyGraspsTheMostRobustAreShown) {
+  const TempFolder folder;
+  GraspFigure figure;
+  figure.objects.push_back(GraspedAt({{-0.4, 0.1}, {0.4, 0.9}, {0.0, 0.2}, {0.2, 0.8}}));
+  figure.shown = 2;
+  const Image image = SeenFromX(folder, figure, 1);
+  const double side = image.width - 16.0, middle = 8.0 + 0.5 * side;
+  const auto colored = [&](double z) {
+    const Area line{8.0, middle - z * side / 1.24 - 4.0, side, 8.0};
+    return pixels::Find(image, line, &IsRed).count + pixels::Find(image, line, &IsGreen).count > 0;
+  };
+  EXPECT_TRUE(colored(0.4));
+  EXPECT_TRUE(colored(0.2));
+  EXPECT_FALSE(colored(0.0));
+  EXPECT_FALSE(colored(-0.4));
+}
+
+TEST(GraspFigure, ObjectsStandRowByRowAndThePlotEndsTheFirstRow) {
+  const TempFolder folder;
+  const auto is_blue = [](const Rgb& p) { return p[2] > p[0] + 20; };
+  for (int shown = 0; shown < 3; ++shown) {
+    // The second and third of three objects follow the plot in a page of two columns.
+    GraspFigure figure;
+    for (int i = 0; i < 3; ++i) {
+      figure.objects.push_back({"", "", i == shown ? shapes::Cube() : TriangleMesh(), {}});
+    }
+    figure.histories = {{"", {0.0, 10.0}, {8.0, 4.0}}};
+    const Image image = SeenFromX(folder, figure, 2);
+    const double side = (image.width - 16.0 - 20.0) / 2.0;  // in pixels: border 8, gap 20
+    const auto cell = [&](int row, int column) {
+      const Area area{8.0 + column * (side + 20.0), 8.0 + row * (side + 48.0), side, side};
+      // The first history's line is blue, too, but thin.
+      return pixels::Find(image, area, is_blue).count > 0.2 * side * side;
+    };
+    EXPECT_EQ(cell(0, 0), shown == 0);
+    EXPECT_FALSE(cell(0, 1));
+    EXPECT_EQ(cell(1, 0), shown == 1);
+    EXPECT_EQ(cell(1, 1), shown == 2);
+  }
+}
+
+TEST(GraspFigure, ThePlotFallsWithItsPairs) {
+  const TempFolder folder;
+  GraspFigure figure;
+  figure.objects.push_back({"", "", TriangleMesh(), {}});
+  figure.histories = {{"", {0.0, 10.0}, {8.0, 2.0}}};
+  const Image image = SeenFromX(folder, figure, 2);
+  const Color line{0.13, 0.37, 0.66};
+  const double half = 0.5 * image.width;
+  const auto all = pixels::FindColor(image, {half, 0.0, half, half}, line);
+  ASSERT_GT(all.count, 20);
+  const double middle = 0.5 * (all.left + all.right);
+  const auto first = pixels::FindColor(image, {half, 0.0, middle - half, half}, line);
+  const auto second = pixels::FindColor(image, {middle, 0.0, half, half}, line);
+  EXPECT_LT(first.top, second.top - 10);  // y is down
+}
+
+TEST(GraspFigure, TheLegendsWordsAreOnTheirOwnSides) {
+  const TempFolder folder;
+  GraspFigure figure;
+  figure.objects.push_back({"", "", TriangleMesh(), {}});
+  FigureOptions options;
+  options.width_mm = 70.0;
+  options.dpi = 576.0;  // 8 dots a point: the two words differ by half a point
+  WriteGraspFigure(folder / "f.png", figure, options);
+  const Image image = ReadPng(folder / "f.png");
+  double least = 0.0, most = 0.0;
+  pixels::Drawn(10, 10, 1, [&](Canvas* canvas) {
+    least = canvas->TextWidth("least reliable", {7.0});
+    most = canvas->TextWidth("most reliable", {7.0});
+  });
+  ASSERT_GT(std::abs(least - most), 0.5);
+  // The bar is 90 points wide, its words 5 beside it; a letter's bearing is less than a point.
+  const auto ink = pixels::FindInk(
+      image, {0.0, image.height - 8.0 * 22.0, static_cast<double>(image.width), 8.0 * 12.0});
+  const double middle = 4.0 * options.Width();
+  const double left = (middle - ink.left) / 8.0 - 50.0,
+               right = (ink.right + 1 - middle) / 8.0 - 50.0;
+  EXPECT_NEAR(left + right, least + most, 2.0);
+  EXPECT_GT((left - right) * (least - most), 0.0);
 }
 
 TEST(GraspFigure, AnObjectWithoutGraspsAndAPageWithoutObjectsAreDrawn) {

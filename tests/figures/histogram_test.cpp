@@ -36,6 +36,15 @@ TEST(Histogram, SharesSumToOneAndAreZeroOfNothing) {
   EXPECT_EQ(nothing.LargestShare(), 0.0);
 }
 
+TEST(Histogram, ARangeMayBeginAnywhere) {
+  const Histogram h = MakeHistogram({-2.0, -0.6, -0.5, 2.4, 4.0, 2.5, 3.0}, -2.0, 4.0, 4);
+  EXPECT_EQ(h.counts, (std::vector<int>{2, 1, 1, 3}));  // edges -2, -0.5, 1, 2.5, 4
+  for (int k = 0; k <= 4; ++k) EXPECT_EQ(h.Edge(k), -2.0 + 1.5 * k);
+  EXPECT_EQ(h.Share(0), 2.0 / 7.0);
+  EXPECT_EQ(h.Share(3), 3.0 / 7.0);
+  EXPECT_EQ(MakeHistogram({1.0, std::nan(""), 3.0}, 0.0, 4.0, 2).Share(0), 0.5);  // of the numbers
+}
+
 TEST(Histogram, RefusesARangeWithoutExtent) {
   EXPECT_THROW(MakeHistogram({1.0}, 1.0, 1.0, 3), std::logic_error);
   EXPECT_THROW(MakeHistogram({1.0}, 0.0, kNone, 3), std::logic_error);

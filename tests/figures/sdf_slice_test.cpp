@@ -28,6 +28,7 @@ TEST(SdfSlice, HasTheOtherTwoAxesInTheirOrderAndIsLinearBetweenLayers) {
   EXPECT_NEAR(MakeSlice(grid, 2, 0.1).At(3, 5), node(3) + 10.0 * node(5) + 10.0, 1e-4);
   EXPECT_NEAR(MakeSlice(grid, 1, 0.1).At(3, 5), node(3) + 1.0 + 100.0 * node(5), 1e-4);
   EXPECT_NEAR(MakeSlice(grid, 0, 0.1).At(3, 5), 0.1 + 10.0 * node(3) + 100.0 * node(5), 1e-4);
+  EXPECT_NEAR(MakeSlice(grid, 2, -9.0).At(7, 0), node(7) + 10.0 * node(0) + 100.0 * node(0), 1e-4);
   EXPECT_NEAR(MakeSlice(grid, 2, 9.0).At(0, 0), 11.0 * node(0) + 100.0 * node(7), 1e-4);
 }
 
