@@ -92,8 +92,9 @@ GraspedObject GraspedAt(const std::vector<std::pair<double, double>>& height_and
 // From +x, y to the right, at two pixels a point; the picture is the first cell.
 Image SeenFromX(const TempFolder& folder, GraspFigure figure, int columns) {
   FigureOptions options;
-  options.width_mm = 90.0;
+  options.width_mm = 60.0;
   options.dpi = 144.0;
+  options.view.samples = 1;
   options.threads = 1;
   options.columns = columns;
   options.view.azimuth = options.view.elevation = 0.0;

@@ -73,6 +73,7 @@ Image Row(const TempFolder& folder, const RowFigure& figure) {
   FigureOptions options;
   options.width_mm = 120.0;
   options.dpi = 144.0;
+  options.view.samples = 1;
   options.threads = 1;
   WriteRowFigure(folder / "f.png", figure, options);
   return ReadPng(folder / "f.png");

@@ -58,6 +58,7 @@ TEST(SdfFigure, TheSectionIsAcrossItsAxisAtItsPlaceWithUpUp) {
     for (const double position : {0.25, -0.25}) {
       figure.position = position;
       FigureOptions options;
+      options.width_mm = 100.0;
       options.dpi = 72.0;
       WriteSdfFigure(folder / "f.png", figure, options);
       const Image image = ReadPng(folder / "f.png");

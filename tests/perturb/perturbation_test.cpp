@@ -99,29 +99,36 @@ PerturbResult Rotated(const TriangleMesh& mesh, const RotationOptions& options,
   return PerturbByRotation(mesh, PairLimitsOf(common, 0.5, 1.0), common, options, &rng);
 }
 
-TEST(PerturbByRotation, TurnsTwoParallelFacesByBetaTimesPsiEach) {
-  // All pairs of a cube are parallel, phi = 0, and have no corner in common: theta = beta psi.
-  for (const double beta : {0.1, 0.3}) {
+TEST(PerturbByRotation, TurnsBothFacesByBetaOfTheMissingAngle) {
+  // A slab whose top is tilted by phi; its sides are further apart than asked for, and no face of
+  // the top has a corner in common with one of the bottom: theta = beta (psi - phi).
+  for (const auto& [beta, phi] : {std::pair{0.1, 0.0}, {0.3, 0.0}, {0.1, 8.0}, {0.5, 8.0}}) {
+    TriangleMesh slab = shapes::Box({1.0, 1.0, 0.3});
+    for (Vector3d& v : slab.vertices) {
+      if (v.x() > 0 && v.z() > 0) v.z() += std::tan(phi * kDegree);
+    }
     PerturbOptions common;
     common.cone = 20.0;
+    common.max_width = 0.6;
     RotationOptions options;
     options.beta = beta;
     options.iterations = 1;
-    const PerturbResult result = Rotated(shapes::Cube(), options, common);
+    const PerturbResult result = Rotated(slab, options, common);
     ASSERT_EQ(result.moved, 1);
-    const double theta = beta * 20.0 * kDegree;
-    int turned = 0;
-    for (const FacePair& pair : AntipodalPairs(result.start, {20.0 * kDegree})) {
+    const double theta = beta * (20.0 - phi) * kDegree;
+    const auto turned = [&](std::int32_t f) {
+      const FaceShape from(result.start, f), to(result.mesh, f);
+      return std::abs(AntipodalityAngle(from.normal, -to.normal) - theta) < 1e-6 &&
+             (from.center - to.center).norm() < 1e-6;
+    };
+    int found = 0;
+    for (const FacePair& pair : AntipodalPairs(result.start, {20.0 * kDegree, 0.6})) {
+      if (!turned(pair.first) || !turned(pair.second)) continue;
       const FaceShape a(result.mesh, pair.first), b(result.mesh, pair.second);
-      const FaceShape from_a(result.start, pair.first), from_b(result.start, pair.second);
-      const bool both = std::abs(std::acos(a.normal.dot(from_a.normal)) - theta) < 1e-5 &&
-                        std::abs(std::acos(b.normal.dot(from_b.normal)) - theta) < 1e-5;
-      if (!both || (a.center - from_a.center).norm() > 1e-6) continue;
-      if ((b.center - from_b.center).norm() > 1e-6) continue;
-      EXPECT_NEAR(AntipodalityAngle(a.normal, b.normal), 2.0 * theta, 1e-5);
-      ++turned;
+      EXPECT_NEAR(AntipodalityAngle(a.normal, b.normal), phi * kDegree + 2.0 * theta, 1e-6);
+      ++found;
     }
-    EXPECT_EQ(turned, 1) << beta;
+    EXPECT_EQ(found, 1) << beta << " " << phi;
   }
 }
 
