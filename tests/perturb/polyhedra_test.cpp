@@ -66,6 +66,26 @@ TEST(SmallestAntipodality, OfABallIsThatOfItsFacetsAndOfNoSolidAboveTheTetrahedr
   EXPECT_LE(SmallestAntipodality(shapes::Tetrahedron()).degrees, kBestAntipodality);
 }
 
+TEST(PlainPolyhedron, HasItsNameInTheOrderOfTheEnumeration) {
+  // The numbers of faces; the cube's are halves of squares.
+  const std::pair<const char*, std::size_t> expected[] = {
+      {"cube", 12},          {"tetrahedron", 4},   {"octahedron", 8},
+      {"cuboctahedron", 20}, {"dodecahedron", 36}, {"icosahedron", 20}};
+  ASSERT_EQ(PolyhedronNames().size(), std::size(expected));
+  for (int kind = 0; kind < 6; ++kind) {
+    const auto& [name, faces] = expected[kind];
+    EXPECT_EQ(PolyhedronNames()[static_cast<std::size_t>(kind)], name);
+    EXPECT_EQ(PlainPolyhedron(static_cast<Polyhedron>(kind), 1.0).faces.size(), faces) << name;
+  }
+  PolyhedronOptions options;
+  OptionTable table;
+  Bind(&table, &options);
+  table.ApplyOverride("shape.restarts=7");
+  table.ApplyOverride("shape.moves=9");
+  EXPECT_EQ(options.restarts, 7);
+  EXPECT_EQ(options.moves, 9);
+}
+
 TEST(PlainPolyhedron, FillsItsCubeAndIsAConvexSolid) {
   const std::size_t corners[] = {8, 4, 6, 12, 20, 12};
   for (int kind = 0; kind < 6; ++kind) {
