@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "antigrasp/perturb/search.h"
 #include "antigrasp/perturb/search_objective.h"
 #include "antigrasp/perturb/search_projection.h"
 #include "tests/support/shapes.h"
@@ -171,6 +173,87 @@ TEST(TurnBack, TurnsAFaceJustInsideTheRimAboutItsCentroid) {
   for (std::size_t v = 0; v < 3; ++v) {
     EXPECT_NEAR((mesh.vertices[v] - start.vertices[v]).norm(), 0.0, 1e-12);
   }
+}
+
+TEST(SearchOptions, EveryKeySetsItsOwnField) {
+  SearchOptions options;
+  ObjectiveOptions& objective = options.objective;
+  OptionTable table;
+  Bind(&table, &options);
+  const std::pair<const char*, double*> numbers[] = {
+      {"alpha", &options.alpha},
+      {"step", &options.step},
+      {"last_step", &options.last_step},
+      {"start_noise", &options.start_noise},
+      {"max_move", &options.max_move},
+      {"cone_width", &objective.cone_width},
+      {"acceptance_softness", &objective.acceptance_softness},
+      {"slip_softness", &objective.slip_softness},
+      {"percentile_softness", &objective.percentile_softness}};
+  double value = 0.125;
+  for (const auto& [key, field] : numbers) {
+    table.ApplyOverride("search." + std::string(key) + "=" + std::to_string(value));
+    EXPECT_EQ(*field, value) << key;
+    value += 0.0625;
+  }
+  const std::pair<const char*, int*> counts[] = {{"steps", &options.steps},
+                                                 {"coarse", &options.coarse},
+                                                 {"sweeps", &options.sweeps},
+                                                 {"candidates", &options.candidates},
+                                                 {"scoring_rounds", &options.scoring_rounds},
+                                                 {"grasps", &objective.grasps},
+                                                 {"draws", &objective.draws},
+                                                 {"noise_pool", &objective.noise_pool}};
+  int count = 11;
+  for (const auto& [key, field] : counts) {
+    table.ApplyOverride("search." + std::string(key) + "=" + std::to_string(count));
+    EXPECT_EQ(*field, count++) << key;
+  }
+  table.ApplyOverride("search.keep_extents=false");
+  EXPECT_FALSE(options.keep_extents);
+}
+
+TEST(PerturbBySearch, NoVertexLeavesTheBoxOrMovesFurtherThanAsked) {
+  // Long steps throw vertices against both limits, a share of the diagonal and the box.
+  const TriangleMesh ball = shapes::Sphere(1.0, 2);
+  const auto searched = [&](double max_move, bool keep_extents) {
+    SearchOptions options;
+    options.alpha = 20.0;
+    options.steps = 20;
+    options.step = 0.5;
+    options.max_move = max_move;
+    options.keep_extents = keep_extents;
+    options.candidates = 4;
+    options.scoring_rounds = 1;
+    options.objective.grasps = 60;
+    options.objective.draws = 5;
+    MetricOptions metric;
+    metric.num_grasps = 30;
+    metric.num_draws = 5;
+    RngStream rng(1, "perturb");
+    return PerturbBySearch(ball, metric, options, &rng);
+  };
+  const auto largest = [](const PerturbResult& result) {
+    double move = 0.0;
+    for (std::size_t v = 0; v < result.mesh.vertices.size(); ++v) {
+      move = std::max(move, (result.mesh.vertices[v] - result.start.vertices[v]).norm());
+    }
+    return move / Bounds(result.start).Extent().norm();
+  };
+  const auto grown = [](const PerturbResult& result) {
+    return (Bounds(result.mesh).Extent() - Bounds(result.start).Extent()).maxCoeff();
+  };
+  const PerturbResult inside = searched(2.0, true), free = searched(2.0, false);
+  for (const PerturbResult* result : {&inside, &free}) {
+    EXPECT_EQ(result->failure, "");
+    EXPECT_EQ(result->iterations, 20);
+    EXPECT_GT(result->moved, 10);  // a state of the second half
+    EXPECT_LE(largest(*result), 0.02);
+    EXPECT_GT(largest(*result), 0.018);
+  }
+  EXPECT_LE(grown(inside), 0.002);
+  EXPECT_GT(grown(free), 0.05);
+  EXPECT_LE(largest(searched(1.0, true)), 0.01);
 }
 
 }  // namespace
