@@ -21,6 +21,7 @@ TEST(SdfFigure, ShowsTheMeshTheGridAndItsSection) {
   MeshToSdf(figure.original, &figure.grid);
   figure.remeshed = Remesh(figure.grid).mesh;
   FigureOptions options;
+  options.width_mm = 90.0;
   options.dpi = 72.0;
   WriteSdfFigure(folder / "f.png", figure, options);
   const Image image = ReadPng(folder / "f.png");

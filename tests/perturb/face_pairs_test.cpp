@@ -188,8 +188,8 @@ TEST(AntipodalPairs, TheTreeFindsWhatAllPairsFind) {
   RngStream rng(2, "pairs_tree");
   for (const double psi : {0.05, 0.46, 1.0}) {
     for (const TriangleMesh& mesh :
-         {shapes::Shaken(shapes::Torus(1.0, 0.4, 24, 12), 0.02, &rng), shapes::Box({1, 2, 3}),
-          shapes::Cylinder(1.0, 2.0, 32), shapes::Dodecahedron()}) {
+         {shapes::Shaken(shapes::Torus(1.0, 0.4, 18, 9), 0.02, &rng), shapes::Box({1, 2, 3}),
+          shapes::Cylinder(1.0, 2.0, 24), shapes::Dodecahedron()}) {
       for (const double width : {0.7, std::numeric_limits<double>::infinity()}) {
         const PairLimits limits{psi, width};
         const auto pairs = AntipodalPairs(mesh, limits);
