@@ -128,6 +128,41 @@ TEST(GraspFigure, TheMoreReliableAxisIsGreenAndStandsAtItsHeight) {
   }
 }
 
+TEST(GraspFigure, AFewFarBetterGraspsLeaveTheOthersTheirColours) {
+  // 0, eighteen times 1, and 100: the 95th percentile of 20 is 1, as green as it gets.
+  const TempFolder folder;
+  GraspFigure figure;
+  std::vector<std::pair<double, double>> grasps(18, {0.3, 1.0});
+  grasps.push_back({-0.3, 0.0});
+  grasps.push_back({0.0, 100.0});
+  figure.objects.push_back(GraspedAt(grasps));
+  const Image image = SeenFromX(folder, figure, 1);
+  const double side = image.width - 16.0, middle = 8.0 + 0.5 * side;
+  const auto line = [&](double z) { return Area{8.0, middle - z * side / 1.24 - 4.0, side, 8.0}; };
+  EXPECT_GT(pixels::Find(image, line(0.3), &IsGreen).count, 20);
+  EXPECT_GT(pixels::Find(image, line(0.0), &IsGreen).count, 20);
+  EXPECT_GT(pixels::Find(image, line(-0.3), &IsRed).count, 20);
+}
+
+TEST(GraspFigure, ObjectsOfARowShareAScaleAndRowsDoNot) {
+  const TempFolder folder;
+  GraspFigure figure;
+  for (const double size : {1.0, 0.5, 0.5}) {
+    figure.objects.push_back({"", "", shapes::Box(Eigen::Vector3d::Constant(size)), {}});
+  }
+  const Image image = SeenFromX(folder, figure, 2);
+  const auto is_blue = [](const Rgb& p) { return p[2] > p[0] + 20; };
+  const double side = (image.width - 16.0 - 20.0) / 2.0;
+  const auto wide = [&](int row, int column) {
+    const auto spot = pixels::Find(
+        image, {8.0 + column * (side + 20.0), 8.0 + row * (side + 48.0), side, side}, is_blue);
+    return spot.right + 1 - spot.left;
+  };
+  EXPECT_NEAR(wide(0, 0), side / 1.24, 2.0);
+  EXPECT_NEAR(wide(0, 1), 0.5 * side / 1.24, 2.0);
+  EXPECT_NEAR(wide(1, 0), side / 1.24, 2.0);
+}
+
 TEST(GraspFigure, OfManyGraspsTheMostRobustAreShown) {
   const TempFolder folder;
   GraspFigure figure;

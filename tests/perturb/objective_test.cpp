@@ -138,6 +138,28 @@ TEST(AttackGrasps, ReachFallsWithTheDistanceFromTheCentreOfMassAndFacesAreOfThei
   EXPECT_NE(first(6, 0), first(5, 1));
 }
 
+TEST(AttackGrasps, AreSampledBeyondTheFrictionConeByTheGivenTangent) {
+  MetricOptions metric;
+  metric.friction = 0.3;
+  metric.collision = "jaws";
+  ObjectiveOptions options;
+  options.grasps = 200;
+  options.draws = 1;
+  options.cone_width = 0.2;
+  const TriangleMesh plate = shapes::Box({0.2, 0.2, 0.02});
+  const auto normals = FaceNormals(plate);
+  double largest = 0.0;
+  for (const AttackGrasp& grasp :
+       SampleAttackGrasps(plate, metric, options, std::vector<NoiseDraw>(1), 1, 0)) {
+    const Vector3d& normal = normals[static_cast<std::size_t>(grasp.planned.face[0])];
+    const double tangent =
+        normal.cross(grasp.planned.axis).norm() / -normal.dot(grasp.planned.axis);
+    largest = std::max(largest, tangent);
+  }
+  EXPECT_LE(largest, 0.5 + 1e-9);
+  EXPECT_GT(largest, 0.45);
+}
+
 TEST(LargestTurn, IsTheAngleOfTheFaceThatTurnedMostAndPiWithoutArea) {
   TriangleMesh box = shapes::Box({1, 2, 3});
   const auto normals = FaceNormals(box);

@@ -228,6 +228,15 @@ TEST(PerturbOptions, HaveThePapersDefaultsUnderTheirOwnKeys) {
     table.ApplyOverride(std::string(key) + "=" + std::to_string(count));
     EXPECT_EQ(*field, count++) << key;
   }
+  const std::pair<const char*, bool*> switches[] = {
+      {"perturb.unchecked", &common.unchecked},
+      {"perturb.history", &common.history},
+      {"exhaustive.only_if_better", &exhaustive.only_if_better}};
+  for (const auto& [key, field] : switches) {
+    EXPECT_FALSE(*field) << key;
+    table.ApplyOverride(std::string(key) + "=true");
+    EXPECT_TRUE(*field) << key;
+  }
   table.ApplyOverride("random.limit=step");
   table.ApplyOverride("random.step=largest");
   table.ApplyOverride("random.pairs=area");
