@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -54,7 +55,12 @@ TEST(NearestSquared, IsThatOfThePlainDoubleLoopBitForBit) {
   }
 }
 
-TEST(PointSet, KeepsEveryPointOnceInsideItsBox) {
+void ExpectTight(const std::array<float, PointSet::kBlock>& lanes, float low, float high) {
+  EXPECT_EQ(*std::min_element(lanes.begin(), lanes.end()), low);
+  EXPECT_EQ(*std::max_element(lanes.begin(), lanes.end()), high);
+}
+
+TEST(PointSet, KeepsEveryPointOnceInATightBox) {
   const PointSet set(Cloud(1000, 3));
   std::size_t used = 0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), expected = sum;
@@ -63,9 +69,10 @@ TEST(PointSet, KeepsEveryPointOnceInsideItsBox) {
     used += block.used;
     for (std::size_t lane = 0; lane < block.used; ++lane) {
       sum += Eigen::Vector3d(block.x[lane], block.y[lane], block.z[lane]);
-      EXPECT_GE(block.x[lane], set.boxes().low[0][b]);
-      EXPECT_LE(block.z[lane], set.boxes().high[2][b]);
     }
+    ExpectTight(block.x, set.boxes().low[0][b], set.boxes().high[0][b]);
+    ExpectTight(block.y, set.boxes().low[1][b], set.boxes().high[1][b]);
+    ExpectTight(block.z, set.boxes().low[2][b], set.boxes().high[2][b]);
   }
   for (const Vector3f& point : Cloud(1000, 3)) expected += point.cast<double>();
   EXPECT_EQ(used, 1000u);
@@ -85,6 +92,13 @@ TEST(Chamfer, OfTwoPointsToOneIsByHand) {
   // (1 + 3) / 2 from the two, 1 from the one.
   EXPECT_DOUBLE_EQ(Chamfer(two, one), 1.5);
   EXPECT_DOUBLE_EQ(Chamfer(one, two), 1.5);
+}
+
+TEST(Chamfer, LooksAlongEveryAxis) {
+  const PointSet origin({Vector3f(1, 1, 1)});
+  EXPECT_DOUBLE_EQ(Chamfer(origin, PointSet({Vector3f(3, 4, 7)})), 7.0);  // 2, 3, 6
+  EXPECT_DOUBLE_EQ(Chamfer(origin, PointSet({Vector3f(1, 6, 1)})), 5.0);
+  EXPECT_DOUBLE_EQ(Chamfer(origin, PointSet({Vector3f(1, 1, -3)})), 4.0);
 }
 
 TEST(Chamfer, OfEqualSetsIsZeroInAnyOrder) {
@@ -129,8 +143,15 @@ TEST(ChamferMatrix, IsSymmetricAndTheSameAtAnyThreadCount) {
   EXPECT_EQ(one, four);
   EXPECT_EQ(one, one.transpose());
   EXPECT_EQ(one.diagonal().norm(), 0.0F);
-  EXPECT_FLOAT_EQ(one(2, 7), static_cast<float>(Chamfer(shapes[2], shapes[7])));
-  EXPECT_GT(one(3, 4), 0.0F);  // the middle row of an odd number
+  shapes.pop_back();
+  const DistanceMatrix even = ChamferMatrix(shapes, 2);
+  EXPECT_EQ(even, one.topLeftCorner(8, 8));
+  for (int i = 0; i < 8; ++i) {
+    for (int j = i + 1; j < 8; ++j) {
+      EXPECT_EQ(even(i, j),
+                static_cast<float>(Chamfer(shapes[std::size_t(i)], shapes[std::size_t(j)])));
+    }
+  }
 }
 
 TEST(NearestChamfer, IsTheSmallestOfTheRow) {
@@ -142,6 +163,7 @@ TEST(NearestChamfer, IsTheSmallestOfTheRow) {
   double least = Chamfer(shapes[0], others[0]);
   for (const PointSet& other : others) least = std::min(least, Chamfer(shapes[0], other));
   EXPECT_EQ(nearest[0], least);
+  EXPECT_THROW(NearestChamfer(shapes, {}, 1), std::logic_error);
 }
 
 }  // namespace

@@ -31,24 +31,54 @@ SpreadComparison Spreads(const Places& samples, const Places& reference) {
   return CompareSpreads(Between(samples, samples), Between(reference, reference));
 }
 
+// Every number is another one with samples and reference swapped; only 1-NNA knows no sides.
 TEST(CompareSets, OfThreeShapesIsByHand) {
-  const SetComparison found = Compare({0, 1, 10}, {2, 12, 20});
-  EXPECT_DOUBLE_EQ(found.coverage, 2.0 / 3);             // 2 twice, 12 once; 20 never
-  EXPECT_DOUBLE_EQ(found.matching, (1 + 2 + 10) / 3.0);  // from 2 to 1, 12 to 10, 20 to 10
-  EXPECT_DOUBLE_EQ(found.to_reference, (2 + 1 + 2) / 3.0);
-  // Own is nearer: 0 (1 < 2), 20 (8 < 10). 1 has ties (1 = 1), which count against it.
-  EXPECT_DOUBLE_EQ(found.nna, 2.0 / 6);
-  EXPECT_DOUBLE_EQ(found.within_reference, (10 + 8 + 8) / 3.0);
+  const SetComparison found = Compare({0, 9, 12}, {10, 20, 40});
+  EXPECT_DOUBLE_EQ(found.coverage, 1.0 / 3);             // all three are nearest to 10
+  EXPECT_DOUBLE_EQ(found.matching, (1 + 8 + 28) / 3.0);  // 10 to 9, 20 to 12, 40 to 12
+  EXPECT_DOUBLE_EQ(found.to_reference, (10 + 1 + 2) / 3.0);
+  EXPECT_DOUBLE_EQ(found.within_reference, (10 + 10 + 20) / 3.0);
+  EXPECT_DOUBLE_EQ(found.nna, 2.0 / 6);  // 0 (9 < 10) and 40 (20 < 28)
+
+  const SetComparison swapped = Compare({10, 20, 40}, {0, 9, 12});
+  EXPECT_DOUBLE_EQ(swapped.coverage, 2.0 / 3);  // 10 to 9, the others to 12
+  EXPECT_DOUBLE_EQ(swapped.matching, (10 + 1 + 2) / 3.0);
+  EXPECT_DOUBLE_EQ(swapped.to_reference, (1 + 8 + 28) / 3.0);
+  EXPECT_DOUBLE_EQ(swapped.within_reference, (9 + 3 + 3) / 3.0);
+  EXPECT_DOUBLE_EQ(swapped.nna, 2.0 / 6);
 }
 
-TEST(CompareSpreads, OfThreeShapesIsByHand) {
-  const SpreadComparison found = Spreads({0, 1, 10}, {2, 12, 20});
-  EXPECT_DOUBLE_EQ(found.samples.mean_distance, (1 + 10 + 9) / 3.0);
-  EXPECT_DOUBLE_EQ(found.median_distance, 10.0);
-  EXPECT_DOUBLE_EQ(found.diversity, 20.0 / 36);
-  // The reference's nearest are 10, 8, 8: nearer than 4 are the samples 0 and 1.
-  EXPECT_DOUBLE_EQ(found.samples.duplicates, 2.0 / 3);
+TEST(CompareSets, CountsTiesAgainstTheOwnSet) {
+  // 2 is as far from 0 as from 4. 0 (2 < 4) and 100 (96 < 98) are nearer to their own, 4 is not.
+  EXPECT_DOUBLE_EQ(Compare({0, 2}, {4, 100}).nna, 2.0 / 4);
+  EXPECT_DOUBLE_EQ(Compare({4, 100}, {0, 2}).nna, 2.0 / 4);
+}
+
+TEST(CompareSpreads, OfFiveShapesIsByHand) {
+  // Nearest others: 10, 10, 6, 5, 5 and 1, 1, 19, 21, 21.
+  const SpreadComparison found = Spreads({0, 10, 20, 26, 31}, {0, 1, 20, 41, 62});
+  EXPECT_DOUBLE_EQ(found.samples.mean_distance, 156 / 10.0);
+  EXPECT_DOUBLE_EQ(found.reference.mean_distance, 328 / 10.0);
+  EXPECT_DOUBLE_EQ(found.diversity, 156.0 / 328);
+  // The reference's pairs: 1 19 20 21 21 | 40 41 42 61 62. The samples' would say 11.
+  EXPECT_DOUBLE_EQ(found.median_distance, 21.0);
+  // Half the reference's median, 19 / 2.
+  EXPECT_DOUBLE_EQ(found.samples.duplicates, 3.0 / 5);
+  EXPECT_DOUBLE_EQ(found.reference.duplicates, 2.0 / 5);
+}
+
+TEST(CompareSpreads, TakesLowerMediansAndOnlyWhatIsNearer) {
+  // Nearest others of the reference: 8, 8, 12, 21; all its pairs: 8 12 20 21 33 41.
+  // Of the samples, 3, 3, 4, 5, two are nearer than 8 / 2; 4 is not.
+  const SpreadComparison found = Spreads({0, 3, 7, 12}, {0, 8, 20, 41});
+  EXPECT_DOUBLE_EQ(found.median_distance, 20.0);
+  EXPECT_DOUBLE_EQ(found.samples.duplicates, 2.0 / 4);
   EXPECT_DOUBLE_EQ(found.reference.duplicates, 0.0);
+}
+
+TEST(CompareSpreads, HasNoDiversityBesideEqualReferences) {
+  EXPECT_EQ(Spreads({0, 3}, {5, 5}).diversity, 0.0);
+  EXPECT_EQ(Spreads({5, 5}, {0, 3}).diversity, 0.0);
 }
 
 TEST(CompareSets, FindsThePermutedSetItself) {
@@ -113,10 +143,19 @@ TEST(VendiScore, CountsClustersFarApart) {
 }
 
 TEST(VendiScore, OfTwoShapesIsTheEntropyOfTheirKernel) {
-  // Eigenvalues of K / 2: (1 +- k) / 2.
-  const double k = std::exp(-0.5), p = 0.5 * (1 + k), q = 0.5 * (1 - k);
-  EXPECT_NEAR(VendiScore(Between({0, 3}, {0, 3}), 3.0),
+  // Two scales apart: k = exp(-2 * 2 / 2). Eigenvalues of K / 2: (1 +- k) / 2.
+  const double k = std::exp(-2.0), p = 0.5 * (1 + k), q = 0.5 * (1 - k);
+  EXPECT_NEAR(VendiScore(Between({0, 6}, {0, 6}), 3.0),
               std::exp(-p * std::log(p) - q * std::log(q)), 1e-9);
+}
+
+TEST(VendiScore, LeavesNegativeEigenvaluesOut) {
+  // 0 = 1 and 1 = 2, but 0 and 2 are far apart: K = [1 1 0; 1 1 1; 0 1 1] has the eigenvalues
+  // 1 + sqrt(2), 1, 1 - sqrt(2); the positive ones are to each other as p and q.
+  DistanceMatrix distances = DistanceMatrix::Zero(3, 3);
+  distances(0, 2) = distances(2, 0) = 1000;
+  const double q = 1 / (2 + std::sqrt(2.0)), p = 1 - q;
+  EXPECT_NEAR(VendiScore(distances, 1.0), std::exp(-p * std::log(p) - q * std::log(q)), 1e-9);
 }
 
 TEST(VendiScore, WithoutAScaleCountsGroupsOfEqualShapes) {
