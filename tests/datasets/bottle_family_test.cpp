@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -216,6 +215,31 @@ TEST(BottleFamily, EdgesAreQuarterCirclesAndTheBaseIsHollow) {
     EXPECT_NEAR(o[8].x(), 0.575 * o[kFoot].x(), 1e-12);
     EXPECT_NEAR(o[8].y(), 0.5 * o[kHollow].y(), 1e-12);
   }
+}
+
+// A stream gives the same bottle for ever: one number a parameter, in this order.
+TEST(BottleFamily, DrawsItsParametersInOneOrder) {
+  RngStream rng(3, "bottle-test");
+  const auto o = Standing(2, 3);
+  const double height = rng.Uniform(0.85, 1.0), radius = rng.Uniform(0.15, 0.19);
+  const double body = rng.Uniform(0.58, 0.68), shoulder = rng.Uniform(0.10, 0.18);
+  const double cap = rng.Uniform(0.08, 0.115), neck = rng.Uniform(0.38, 0.50);
+  const double rim = rng.Uniform(1.15, 1.40), waist = rng.Uniform(0.06, 0.22);
+  const double dimple = rng.Uniform(0.02, 0.05), fillet = rng.Uniform(0.15, 0.4);
+  const double pull = rng.Uniform(0.35, 0.65), edge = rng.Uniform(0.3, 0.5);
+  EXPECT_NEAR(o[kTop].y(), height, 1e-12);
+  EXPECT_NEAR(o[kFilletEnd].x(), radius, 1e-12);
+  EXPECT_NEAR(o[kBodyTop].y(), body * height, 1e-12);
+  EXPECT_NEAR(o[kShoulderTop].y(), (body + shoulder) * height, 1e-12);
+  EXPECT_NEAR(o[kCapRim].y(), (1 - cap) * height, 1e-12);
+  EXPECT_NEAR(o[kNeckTop].x(), neck * radius, 1e-12);
+  EXPECT_NEAR(o[kCapRim].x(), rim * neck * radius, 1e-12);
+  EXPECT_NEAR(o[kBodyMiddle].x(), (1 - waist) * radius, 1e-12);
+  EXPECT_NEAR(o[kHollow].y(), dimple * height, 1e-12);
+  EXPECT_NEAR(o[kFilletEnd].y(), fillet * radius, 1e-12);
+  EXPECT_NEAR(o[kBodyTop + 4].y(), (body + shoulder * (10 + 18 * pull) / 64) * height, 1e-12);
+  EXPECT_NEAR(o[kTop].y() - o[kCapWall].y(),
+              std::min(edge * cap * height, 0.5 * rim * neck * radius), 1e-12);
 }
 
 TEST(BottleFamily, StandsOnItsBase) {
