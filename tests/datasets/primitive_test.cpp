@@ -109,9 +109,11 @@ TEST(GraftedSolid, MeasuresPastABuriedWallToTheBareOne) {
   plate.axes = post.axes = Eigen::Matrix3d::Identity();
   plate.half = {4, 4, 2};  // the post sticks 1 out of it above and below
   const GraftedSolid solid({plate, post});
-  // In the middle: the rim where post and plate meet is nearer than the post's end.
-  EXPECT_NEAR(solid.SignedDistance({0, 0, 0}), std::sqrt(1 + 4.0), 3e-3);
-  EXPECT_NEAR(solid.SignedDistance({0, 0, 1}), std::sqrt(1 + 1.0), 3e-3);
+  // In the middle: the rim where post and plate meet is nearer than the post's end, nearest in the
+  // middle of one of its 64 sides.
+  const double side = std::cos(std::numbers::pi / 64);
+  EXPECT_NEAR(solid.SignedDistance({0, 0, 0}), std::sqrt(side * side + 4), 1e-9);
+  EXPECT_NEAR(solid.SignedDistance({0, 0, 1}), std::sqrt(side * side + 1), 1e-9);
   EXPECT_NEAR(solid.SignedDistance({2, 0, 0}), 2.0, 1e-12);
   EXPECT_NEAR(solid.SignedDistance({0, 0, 2.75}), 0.25, 1e-12);
   EXPECT_NEAR(solid.SignedDistance({0, 0, 3.5}), -0.5, 1e-12);

@@ -157,6 +157,22 @@ TEST(ShapeFile, HoldsTheNamesInOneLengthFilledWithZeros) {
   H5Dclose(set);
 }
 
+// Two files of one content are the same bytes in any second.
+TEST(ShapeFile, HoldsNoTimes) {
+  const TempFolder folder;
+  WriteShapeSet(folder / "a.h5", Marked());
+  const OpenFile file(folder / "a.h5");
+  for (const char* name : {"/sdf", "/names"}) {
+    const hid_t set = H5Dopen2(file.get(), name, H5P_DEFAULT);
+    const hid_t properties = H5Dget_create_plist(set);
+    hbool_t times = true;
+    EXPECT_GE(H5Pget_obj_track_times(properties, &times), 0);
+    EXPECT_FALSE(times) << name;
+    H5Pclose(properties);
+    H5Dclose(set);
+  }
+}
+
 // A file by somebody else, in other types than ours where the format leaves the choice.
 struct Foreign {
   std::string format = "antigrasp.sdf", kind = "bottles", sign = "positive inside",

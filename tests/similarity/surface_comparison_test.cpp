@@ -63,10 +63,11 @@ TEST(CompareSurfaces, SeesSamplesCopiedFromTheTrainingShapes) {
   const auto of = [&](const Meshes& samples) {
     return *CompareSurfaces(samples, held_out, training, Coarse()).memorisation;
   };
-  EXPECT_EQ(of(copied).nearer, 1.0);
-  EXPECT_LT(of(copied).samples, 0.6 * of(copied).reference);
-  EXPECT_NEAR(of(fresh).nearer, 0.5, 0.3);
-  EXPECT_NEAR(of(fresh).samples, of(fresh).reference, 0.3 * of(fresh).reference);
+  const Memorisation copies = of(copied), others = of(fresh);
+  EXPECT_EQ(copies.nearer, 1.0);
+  EXPECT_LT(copies.samples, 0.6 * copies.reference);
+  EXPECT_NEAR(others.nearer, 0.5, 0.3);
+  EXPECT_NEAR(others.samples, others.reference, 0.3 * others.reference);
 }
 
 TEST(CompareSurfaces, DoesNotChangeWhenAllMoveAlike) {
