@@ -83,9 +83,11 @@ TEST(GraftedSolid, BoundsHoldEveryPartBothWays) {
   Primitive low = Box(), high = Cylinder();
   low.center = {-10, 0, 1};
   high.center = {5, 2, 0};
-  const GraftedSolid solid({low, high});
-  EXPECT_LT((solid.Bounds().min - Vector3d(-13, -1, -1)).norm(), 1e-12);
-  EXPECT_LT((solid.Bounds().max - Vector3d(8, 3, 3)).norm(), 1e-12);
+  const GraftedSolid one({low, high}), other({high, low});
+  for (const BoundingBox& box : {one.Bounds(), other.Bounds()}) {
+    EXPECT_LT((box.min - Vector3d(-13, -1, -1)).norm(), 1e-12);
+    EXPECT_LT((box.max - Vector3d(8, 3, 3)).norm(), 1e-12);
+  }
   EXPECT_THROW(GraftedSolid({}), std::logic_error);
 }
 

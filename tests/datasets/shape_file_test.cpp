@@ -60,6 +60,7 @@ std::string TextOf(hid_t file, const char* name) {
   const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT), type = H5Aget_type(attribute);
   EXPECT_EQ(H5Tget_class(type), H5T_STRING) << name;
   EXPECT_EQ(H5Tget_cset(type), H5T_CSET_UTF8) << name;
+  EXPECT_EQ(H5Tget_strpad(type), H5T_STR_NULLPAD) << name;  // no room for a zero at the end
   std::string text(H5Tget_size(type), '?');
   H5Aread(attribute, type, text.data());
   H5Tclose(type);
@@ -149,6 +150,7 @@ TEST(ShapeFile, HoldsTheNamesInOneLengthFilledWithZeros) {
   const OpenFile file(folder / "a.h5");
   const hid_t set = H5Dopen2(file.get(), "/names", H5P_DEFAULT), type = H5Dget_type(set);
   EXPECT_EQ(H5Tget_cset(type), H5T_CSET_UTF8);
+  EXPECT_EQ(H5Tget_strpad(type), H5T_STR_NULLPAD);
   ASSERT_EQ(H5Tget_size(type), 6U);
   std::string names(12, '?');
   EXPECT_GE(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, names.data()), 0);
