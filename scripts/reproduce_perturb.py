@@ -1,14 +1,16 @@
 """Sections VI-A and VI-B with the binary antigrasp: runs, tables, figures. Called by scripts/reproduce."""
 import argparse
 import csv
+import math
 import pathlib
 import re
 import shutil
 import time
-
-import numpy as np
+from statistics import fmean, stdev
 
 from reproduce_document import DOCUMENT, IMAGES, SETS, call, commit, pyplot, save_figure, write_section
+
+HISTORY = ("iteration", "pairs", "pairs_below_cone")  # columns of history.csv
 
 
 class Setting:
@@ -118,20 +120,23 @@ class Runner:
 
 
 def numbers(rows, column):
-    return np.array([float(row[column]) for row in rows if row["status"] == "ok"])
+    return [float(row[column]) for row in rows if row["status"] == "ok"]
 
 
 def reduction(before, after):
     """By how many percent the mean falls, with the half width of its 95 % interval over objects."""
-    ratio = after.mean() / before.mean()
-    residuals = (after - ratio * before) / before.mean()
-    return 100 * (1 - ratio), 196 * residuals.std(ddof=1) / np.sqrt(len(before))
+    if len(before) < 2:
+        return math.nan, math.nan
+    base = fmean(before)
+    ratio = fmean(after) / base
+    residuals = [(a - ratio * b) / base for b, a in zip(before, after)]
+    return 100 * (1 - ratio), 196 * stdev(residuals) / math.sqrt(len(before))
 
 
 def reductions(rows):
     """At the default noise, and at Dex-Net's; printable results only."""
     both = [row["dexnet"] for row in rows if row["status"] == "ok" and row["dexnet"] and row["dexnet"]["graspability"]]
-    dexnet = [np.array([float(row[column]) for row in both]) for column in ("baseline", "graspability")]
+    dexnet = [[float(row[column]) for row in both] for column in ("baseline", "graspability")]
     return reduction(numbers(rows, "graspability_before"), numbers(rows, "graspability_after")), reduction(*dexnet)
 
 
@@ -151,29 +156,30 @@ def table(settings, runner):
             for column, (percent, half) in zip((0, 1), reductions(rows)):
                 cells[column].append(f"{percent:.0f} ±{half:.0f}")
             turn = row_numbers(rows, "normal_max_deg")
-            cells[2].append(f"{turn.mean():.0f}" if turn.size else "-")
-            cells[4].append(f"{numbers(rows, 'hausdorff_pct').mean():.1f}")
-            cells[5].append(f"{np.abs(numbers(rows, 'volume_change_pct')).mean():.1f}")
+            cells[2].append(f"{fmean(turn):.0f}" if turn else "-")
+            cells[4].append(f"{fmean(numbers(rows, 'hausdorff_pct')):.1f}")
+            cells[5].append(f"{fmean(map(abs, numbers(rows, 'volume_change_pct'))):.1f}")
         lines.append(f"| {setting.label} | {setting.paper} | " + " | ".join(" / ".join(c) for c in cells) + " |")
     return "\n".join(lines)
 
 
 def row_numbers(rows, column):
-    return np.array([float(row[column]) for row in rows if row[column] and row["status"] == "ok"])
+    return [float(row[column]) for row in rows if row[column] and row["status"] == "ok"]
 
 
 def histograms(path, columns, runner):
     """Rows: sets; columns: settings. Graspability before (grey) and after, by the mean before."""
     figure, axes = pyplot().subplots(len(SETS), len(columns), figsize=(2.3 * len(columns), 5), sharex=True, sharey="row")
-    bins = np.linspace(0, 2, 26)
+    bins = [0.08 * i for i in range(26)]
     for i, kind in enumerate(SETS):
         for j, setting in enumerate(columns):
             rows, ax = runner.result(setting, kind), axes[i, j]
             before, after = (numbers(rows, f"graspability_{when}") for when in ("before", "after"))
-            ax.hist(before / before.mean(), bins, color="0.75", label="before")
-            ax.hist(after / before.mean(), bins, histtype="step", color="#b2182b", linewidth=1.3, label="after")
+            base = fmean(before)
+            ax.hist([b / base for b in before], bins, color="0.75", label="before")
+            ax.hist([a / base for a in after], bins, histtype="step", color="#b2182b", linewidth=1.3, label="after")
             ax.axvline(1, color="0.45", linewidth=0.8)
-            ax.axvline(after.mean() / before.mean(), color="#b2182b", linewidth=0.8, linestyle="--")
+            ax.axvline(fmean(after) / base, color="#b2182b", linewidth=0.8, linestyle="--")
             ax.spines[["top", "right"]].set_visible(False)
             ax.set_yticks([])
             if i == 0:
@@ -195,9 +201,11 @@ def figure_1(path, runner):
         for seed in range(1, 6):
             folder = runner.out / f"dodecahedron-{cone}-{seed}"
             call("perturb", "exhaustive", solid, "--cone", cone, "--seed", seed, "--history", "--out", folder)
-            history = np.genfromtxt(folder / "history.csv", delimiter=",", skip_header=1, usecols=(1, 2, 3))
-            ax.plot(history[:, 0], history[:, 1], color="#b2182b", linewidth=1, label="all" if seed == 1 else None)
-            ax.plot(history[:, 0], history[:, 2], color="0.4", linewidth=1, linestyle="--",
+            with open(folder / "history.csv") as table:
+                history = [{name: float(row[name]) for name in HISTORY} for row in csv.DictReader(table)]
+            iterations, pairs, below = ([row[name] for row in history] for name in HISTORY)
+            ax.plot(iterations, pairs, color="#b2182b", linewidth=1, label="all" if seed == 1 else None)
+            ax.plot(iterations, below, color="0.4", linewidth=1, linestyle="--",
                     label="with phi below the cone" if seed == 1 else None)
         ax.set_title(f"friction cone {cone:.0f} degrees", fontsize=9)
         ax.set_xlabel("iteration", fontsize=8)

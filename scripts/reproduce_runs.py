@@ -1,11 +1,10 @@
 """Training runs behind scripts/reproduce: starting them, and reading what they wrote."""
 import csv
+import math
 import pathlib
 import shutil
 import subprocess
 import sys
-
-import numpy as np
 
 from reproduce_document import BINARY, call
 
@@ -43,7 +42,7 @@ def ratio(row, reference):
     """Mean graspability by a reference's, with its 95 % half width (delta method, independent means)."""
     a, b = float(row["graspability"]), float(reference["graspability"])
     da, db = float(row["half_width_95"]), float(reference["half_width_95"])
-    return a / b, a / b * np.hypot(da / a, db / b)
+    return a / b, a / b * math.hypot(da / a, db / b)
 
 
 def shown(value):

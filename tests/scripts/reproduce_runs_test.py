@@ -1,0 +1,66 @@
+"""What scripts/reproduce_runs.py and reproduce_document.py compute, against answers on paper."""
+import pathlib
+import tempfile
+import unittest
+
+from scripts_path import CELLS, write_compare, write_statistics
+
+import reproduce_document
+import reproduce_runs
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def test_a_ratio_has_the_half_width_of_the_delta_method(self):
+        # 3 / 4; relative half widths 0.3 / 3 = 0.1 and 0.8 / 4 = 0.2 add in squares to the root of 0.05.
+        value, half = reproduce_runs.ratio({"graspability": "3", "half_width_95": "0.3"},
+                                           {"graspability": "4", "half_width_95": "0.8"})
+        self.assertAlmostEqual(value, 0.75, 15)
+        self.assertAlmostEqual(half, 0.75 * 0.05 ** 0.5, 15)
+        self.assertEqual(reproduce_runs.shown((value, half)), "0.75 ±0.17")
+
+    def test_rows_are_found_by_their_stage(self):
+        self.assertEqual(reproduce_runs.rows_of(self.folder), {})
+        write_statistics(self.folder, [{"stage": -1, "graspability": 0.4}, {"stage": 0, "graspability": 0.3},
+                                       {"stage": 2, "graspability": 0.1}])
+        found = {stage: row["graspability"] for stage, row in reproduce_runs.rows_of(self.folder).items()}
+        self.assertEqual(found, {-1: "0.4", 0: "0.3", 2: "0.1"})
+
+    def test_every_measure_stands_under_its_heading(self):
+        self.assertEqual(reproduce_runs.surfaces(self.folder, 3), {})
+        write_compare(self.folder, 3)
+        measured = reproduce_runs.surfaces(self.folder, 3)
+        self.assertEqual(measured["vendi"], (44.4, 60.8))
+        self.assertTrue(measured["coverage"][1] != measured["coverage"][1], "nan: not there")
+        cells = reproduce_runs.surface_cells(measured).split(" | ")
+        self.assertEqual(dict(zip(reproduce_runs.SURFACE_COLUMNS, cells)), CELLS)
+        self.assertEqual(len(cells), 6)
+        self.assertEqual(reproduce_runs.surface_cells({}).split(" | "), ["-"] * 6)
+
+    def test_the_numbers_of_a_run_and_of_its_control_are_kept_apart(self):
+        run, results = self.folder / "run", self.folder / "results"
+        write_statistics(run, [{"stage": 0, "samples": 1}])
+        write_statistics(run / "control", [{"stage": 0, "samples": 2}])
+        write_compare(run, 1)
+        (run / "episode_1/checkpoint.pt").write_text("large")
+        reproduce_runs.keep(run, results)
+        self.assertEqual(reproduce_runs.rows_of(results)[0]["samples"], "1")
+        self.assertEqual(reproduce_runs.rows_of(results / "control")[0]["samples"], "2")
+        self.assertEqual(sorted(str(p.relative_to(results)) for p in results.rglob("*") if p.is_file()),
+                         ["control/statistics.csv", "episode_1/compare.csv", "statistics.csv"])
+
+    def test_a_section_is_written_once_and_leaves_the_others_alone(self):
+        document = self.folder / "d.md"
+        for name, text in (("one", "\nfirst\n"), ("two", "second"), ("one", r"anew \1")):
+            reproduce_document.write_section(name, text, document)
+        self.assertEqual(document.read_text(), "# Reproduction\n\n<!-- begin one -->\nanew \\1\n<!-- end one -->\n\n"
+                                               "<!-- begin two -->\nsecond\n<!-- end two -->\n")
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["d.md"])
+
+
+if __name__ == "__main__":
+    unittest.main()
