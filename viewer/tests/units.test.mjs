@@ -1,52 +1,20 @@
 // The page's arithmetic, against answers known on paper. The sources are loaded through Vite, as the build does.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { fileURLToPath } from "node:url";
-import { createServer } from "vite";
 import { starMesh } from "./support/payload.mjs";
+import { asMesh, cuboid, near, sources } from "./support/sources.mjs";
 
-let vite;
-const load = (path) => vite.ssrLoadModule(path);
+let page;
+const load = (path) => page.load(path);
 before(async () => {
-  vite = await createServer({
-    root: fileURLToPath(new URL("..", import.meta.url)),
-    configFile: false,
-    server: { middlewareMode: true, hmr: false, watch: null },
-    appType: "custom",
-    logLevel: "error",
-    optimizeDeps: { noDiscovery: true },
-  });
+  page = await sources();
 });
-after(() => vite.close());
-
-const near = (actual, expected, tolerance) =>
-  assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected} ± ${tolerance}`);
-
-function asMesh({ positions, indices }) {
-  const min = [0, 1, 2].map((k) => Math.min(...positions.filter((_, i) => i % 3 === k)));
-  const max = [0, 1, 2].map((k) => Math.max(...positions.filter((_, i) => i % 3 === k)));
-  return { positions: new Float32Array(positions), indices: new Uint32Array(indices), min, max };
-}
-
-/** The exact cuboid with 8 vertices. */
-function cuboid(a, b, c) {
-  const positions = [];
-  for (const x of [-a, a]) for (const y of [-b, b]) for (const z of [-c, c]) positions.push(x, y, z);
-  const quads = [
-    [0, 1, 3, 2],
-    [4, 6, 7, 5],
-    [0, 4, 5, 1],
-    [2, 3, 7, 6],
-    [0, 2, 6, 4],
-    [1, 5, 7, 3],
-  ];
-  return asMesh({ positions, indices: quads.flatMap(([p, q, r, s]) => [p, q, r, p, r, s]) });
-}
+after(() => page.close());
 
 test("the signed distances of a cuboid's section are those on paper, for every axis, positive inside", async () => {
   const { distanceTree, outline, signedDistances, PLANE_AXES } = await load("/src/data/section.ts");
   const half = [0.3, 0.2, 0.1];
-  const mesh = cuboid(...half);
+  const mesh = cuboid(half);
   const tree = distanceTree(mesh);
   for (const axis of [0, 1, 2]) {
     const at = 0.04;
@@ -67,7 +35,7 @@ test("the signed distances of a cuboid's section are those on paper, for every a
 
 test("the outline of a section is closed and as long as the cuboid's rectangle", async () => {
   const { loops, outline } = await load("/src/data/section.ts");
-  const mesh = cuboid(0.3, 0.2, 0.1);
+  const mesh = cuboid([0.3, 0.2, 0.1]);
   const pieces = outline(mesh, 2, 0);
   let length = 0,
     area = 0;
@@ -92,7 +60,7 @@ test("normals are smooth on a sphere and stay sharp on a cuboid", async () => {
     n = round.geometry.getAttribute("normal");
   for (let i = 0; i < p.count; ++i)
     assert.ok(p.getX(i) * n.getX(i) + p.getY(i) * n.getY(i) + p.getZ(i) * n.getZ(i) > 0.98, "normals point outwards");
-  const sharp = shade(cuboid(1, 1, 1));
+  const sharp = shade(cuboid([1, 1, 1]));
   assert.equal(sharp.source.length, 24, "three normals for each of the eight corners");
   const m = sharp.geometry.getAttribute("normal");
   for (let i = 0; i < m.count; ++i)
@@ -104,6 +72,8 @@ test("a ratio's interval follows the delta method", async () => {
   const r = ratio({ value: 3, half: 0.3 }, { value: 4, half: 0.4 });
   near(r.value, 0.75, 1e-12);
   near(r.half, 0.75 * Math.hypot(0.1, 0.1), 1e-12);
+  // Relative half widths 0.1 and 0.2.
+  near(ratio({ value: 3, half: 0.3 }, { value: 4, half: 0.8 }).half, 0.75 * Math.sqrt(0.05), 1e-12);
   assert.equal(ratio({ value: 3, half: null }, { value: 4, half: 0.4 }).half, null);
   assert.equal(ratio(null, { value: 4, half: 0.4 }), null);
 });
@@ -130,7 +100,7 @@ test("histograms share all objects out, the last bin takes what lies beyond", as
 
 test("an STL is written in millimetres, turned to its pose and set on the plate", async () => {
   const { stlPlan, writeStl } = await load("/src/data/stl.ts");
-  const mesh = cuboid(0.3, 0.2, 0.1);
+  const mesh = cuboid([0.3, 0.2, 0.1]);
   const object = {
     metres_per_unit: 0.1,
     print: {
