@@ -227,7 +227,11 @@ test("the gripper closes on the contacts from where it came, in mesh units", asy
   allNear(middle(one), [0, 3 + 2.2, 2], 1e-6); // 2 cm and half a finger off the middle; from 5 above to 1 below
   allNear(middle(other), [0, 3 - 2.2, 2], 1e-6);
   allNear(middle(palm), [0, 3, 9], 1e-6);
-  const size = (mesh) => [mesh.geometry.parameters.width, mesh.geometry.parameters.height, mesh.geometry.parameters.depth];
+  const size = (mesh) => [
+    mesh.geometry.parameters.width,
+    mesh.geometry.parameters.height,
+    mesh.geometry.parameters.depth,
+  ];
   allNear(size(one), [0.06, 0.004, 0.02], 1e-12);
   allNear(size(palm), [0.08, 0.06, 0.03], 1e-12);
   assert.equal(gripperOn({ ...grasp, approach: null }, gripper, 0.01), null);
