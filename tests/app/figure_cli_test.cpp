@@ -1,12 +1,15 @@
 // `antigrasp figure` as a user meets it.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/csv_reader.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/render/image.h"
 #include "tests/app/run_binary.h"
+#include "tests/app/svg_text.h"
 #include "tests/support/shapes.h"
 #include "tests/support/well_formed.h"
 
@@ -103,20 +106,40 @@ TEST(FigureCli, Figure3DrawsPerturbedFoldersAndLeavesGapsWhereNumbersAreMissing)
   EXPECT_FALSE(fs::exists(folder / "x.svg"));
 }
 
-TEST(FigureCli, Figure4DrawsARunAndLeavesGapsWhereStagesAreMissing) {
+// The captions of the first `count` usable samples, as the table of their scores has them.
+std::vector<std::string> FirstCaptions(const fs::path& scores, std::size_t count) {
+  std::vector<std::string> captions;
+  CsvReader csv(scores);
+  while (csv.Next() && captions.size() < count) {
+    const double value = csv.NumberOrGap(*csv.Column("graspability"));
+    char text[32];
+    std::snprintf(text, sizeof text, "g = %.5f", value);
+    if (std::isfinite(value)) captions.emplace_back(text);
+  }
+  return captions;
+}
+
+TEST(FigureCli, Figure4DrawsTheFirstUsableSamplesOfARunsStages) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/";
-  ASSERT_EQ(Antigrasp("train " + std::string(ANTIGRASP_CONFIGS) +
-                      "/smoke.toml --set cem.control=" + "false --threads 2 --out " + dir + "run")
+  ASSERT_EQ(Antigrasp("train " ANTIGRASP_CONFIGS "/smoke.toml --set cem.control=false " +
+                      std::string("--set cem.episodes=0 --set cem.prior_iterations=10 --set ") +
+                      "cem.samples=8 --set cem.keep=2 --set prior.count=16 --set cem.compared=4 " +
+                      "--set cem.prior_scored=3 --out " + dir + "run")
                 .code,
             0);
   ExpectSvg(folder, "4 " + dir + "run --examples 2");
-  fs::remove_all(folder / "run/episode_1");
-  fs::remove(folder / "run/episode_2/scores.csv");
-  ExpectSvg(folder, "4 " + dir + "run");
-  ExpectSvg(folder, "4 " + dir + "run --episodes 2 7");
-  fs::remove_all(folder / "run/episode_0");
-  ExpectSvg(folder, "4 " + dir + "run");  // by the prior set's mean
+  std::vector<std::string> expected = FirstCaptions(folder / "run/prior_scores.csv", 2);
+  const std::size_t of_prior = expected.size();
+  EXPECT_EQ(of_prior, 2u);
+  for (const std::string& text : FirstCaptions(folder / "run/episode_0/scores.csv", 2)) {
+    expected.push_back(text);
+  }
+  std::vector<std::string> captions = cli::TextsIn(ReadFile(folder / "1.svg"));
+  std::erase_if(captions, [](const std::string& text) { return !text.starts_with("g = "); });
+  EXPECT_EQ(captions, expected);
+  fs::remove(folder / "run/episode_0/scores.csv");
+  ExpectSvg(folder, "4 " + dir + "run --episodes 0 7");
   fs::remove(folder / "run/prior_scores.csv");
   ExpectRefused("figure 4 " + dir + "run --out " + dir + "x.svg", "no stage has been scored");
   ExpectRefused("figure 4 " + dir + "nowhere --out " + dir + "x.svg", "nowhere");
