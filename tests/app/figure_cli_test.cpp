@@ -139,7 +139,6 @@ TEST(FigureCli, Figure4DrawsTheFirstUsableSamplesOfARunsStages) {
   std::erase_if(captions, [](const std::string& text) { return !text.starts_with("g = "); });
   EXPECT_EQ(captions, expected);
   fs::remove(folder / "run/episode_0/scores.csv");
-  ExpectSvg(folder, "4 " + dir + "run --episodes 0 7");
   fs::remove(folder / "run/prior_scores.csv");
   ExpectRefused("figure 4 " + dir + "run --out " + dir + "x.svg", "no stage has been scored");
   ExpectRefused("figure 4 " + dir + "nowhere --out " + dir + "x.svg", "nowhere");
