@@ -6,6 +6,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <string>
 
 #include "antigrasp/core/error.h"
 #include "tests/support/temp_folder.h"
@@ -17,6 +19,15 @@ namespace fs = std::filesystem;
 
 int FilesIn(const fs::path& folder) {
   return static_cast<int>(std::distance(fs::directory_iterator(folder), {}));
+}
+
+std::string Refusal(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
 }
 
 TEST(AtomicFile, LeavesTheOldFileWhenNotCommitted) {
@@ -58,14 +69,42 @@ TEST(AtomicFile, AFullDiskKeepsTheOldFileAndSaysSo) {
 
 TEST(AtomicFile, RefusesAMissingFolderAndAFolderAsTarget) {
   const shapes::TempFolder folder;
-  EXPECT_THROW(WriteFileAtomic(folder.path() / "no" / "a.txt", "x"), InputError);
-  EXPECT_THROW(WriteFileAtomic(folder.path(), "x"), InputError);
+  const std::string nowhere = folder.path() / "no" / "a.txt", itself = folder.path();
+  EXPECT_EQ(Refusal([&] { WriteFileAtomic(nowhere, "x"); }),
+            "cannot write " + nowhere + " (" + itself +
+                "/no): expected an existing folder to write into");
+  EXPECT_EQ(Refusal([&] { WriteFileAtomic(itself, "x"); }),
+            "cannot write " + itself + " (" + itself + "): expected a file name, not a folder");
+  EXPECT_EQ(FilesIn(folder.path()), 0);
 }
 
 TEST(ReadFile, SaysWhatIsWrongWithThePath) {
   const shapes::TempFolder folder;
-  EXPECT_THROW(ReadFile(folder.path() / "missing"), InputError);
-  EXPECT_THROW(ReadFile(folder.path()), InputError);
+  const std::string missing = folder.path() / "missing";
+  EXPECT_EQ(Refusal([&] { ReadFile(missing); }),
+            "no such file (" + missing + "): expected a readable file");
+  EXPECT_EQ(Refusal([&] { ReadFile(folder.path()); }),
+            "is a folder (" + folder.path().string() + "): expected a readable file");
+  EXPECT_EQ(Refusal([&] { RequireFile("/dev/null", "a picture"); }),
+            "not a file (/dev/null): expected a picture");
+}
+
+TEST(AtomicFile, ATemporaryNameIsHiddenBesideItsTarget) {
+  const shapes::TempFolder folder;
+  const fs::path target = folder.path() / "a.txt";
+  const fs::path temporary = AtomicFile(target).temp_path();
+  EXPECT_EQ(temporary.parent_path(), folder.path());  // a rename across disks would fail
+  EXPECT_TRUE(temporary.filename().string().starts_with(".a.txt."));
+  EXPECT_NE(AtomicFile(folder.path() / "b.txt").temp_path(), temporary);
+}
+
+TEST(AtomicFile, ANameWithoutAFolderIsInTheWorkingFolder) {
+  const shapes::TempFolder folder;
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  WriteFileAtomic("a.txt", "here");
+  fs::current_path(before);
+  EXPECT_EQ(ReadFile(folder.path() / "a.txt"), "here");
 }
 
 TEST(MakeFolder, RefusesAFileInTheWay) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
@@ -69,6 +71,7 @@ TEST(CsvReader, NamesTheLineOfWhatIsWrong) {
   ExpectRefused("id,x\na,1\nb\n", "t.csv:3): expected 2 fields as in the header");
   ExpectRefused("id,x\n\na,1,2\n", "a row of 3 fields");
   ExpectRefused("id,x\n\na,1,2\n", "t.csv:3)");
+  ExpectRefused("id,x\nb\n", "a row of 1 field (");
   ExpectRefused("id,x\n\"two\nlines\",1\nb\n", "t.csv:4)");
   ExpectRefused("id,x,id\na,1,2\n", "column id twice");
   ExpectRefused("id,x\n\"a,1\nb,2\n", "t.csv:2): expected a closing quote");
@@ -117,6 +120,37 @@ TEST(CsvReader, AMissingFileAndAFolderAreRefused) {
   const TempFolder folder;
   EXPECT_THROW(CsvReader(folder / "none.csv"), InputError);
   EXPECT_THROW(CsvReader(folder.path()), InputError);
+}
+
+TEST(CsvReader, TakesColumnsByNameAndGapsAsNoNumber) {
+  const TempFolder folder;
+  const auto path = folder.Write("t.csv", "id, score ,x\n\"a\nb\", 0.25\t,\nc,low,-inf\n");
+  CsvReader reader(path);
+  EXPECT_EQ(reader.names(), (std::vector<std::string>{"id", "score", "x"}));
+  EXPECT_EQ(reader.RequiredColumn("id"), 0u);
+  EXPECT_EQ(reader.RequiredColumn("score"), 1u);
+  EXPECT_EQ(reader.Column("x"), 2u);
+  ASSERT_TRUE(reader.Next());
+  EXPECT_EQ(reader.Where(), path.string() + ":2");  // where the row begins, not where it ends
+  EXPECT_EQ(reader.Field(0), "a\nb");
+  EXPECT_EQ(reader.Field(1), " 0.25\t");
+  EXPECT_EQ(reader.NumberOrGap(1), 0.25);
+  EXPECT_TRUE(std::isnan(reader.NumberOrGap(2)));
+  ASSERT_TRUE(reader.Next());
+  EXPECT_EQ(reader.Where(), path.string() + ":4");
+  EXPECT_EQ(reader.NumberOrGap(2), -std::numeric_limits<double>::infinity());
+  const auto refusal = [](const std::function<void()>& action) -> std::string {
+    try {
+      action();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(refusal([&] { reader.NumberOrGap(1); }),
+            "score = \"low\" (" + path.string() + ":4): expected a number");
+  EXPECT_EQ(refusal([&] { reader.RequiredColumn("y"); }),
+            "no column y (" + path.string() + ":1): expected column y");
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
+#include <string>
+#include <vector>
 
 #include "antigrasp/core/error.h"
 
@@ -72,8 +75,10 @@ TEST(OptionTable, NamesTheNearestKeyOfAnUnknownOne) {
 TEST(OptionTable, AssignsNothingWhenAnyValueIsBad) {
   Sample sample;
   OptionTable table = TableOf(&sample);
-  EXPECT_THROW(table.ApplyText("seed = 5\n[a]\ncount = 0\n", "x.toml"), InputError);
+  // TOML tables are read in the order of their keys: something good on either side of the bad one.
+  EXPECT_THROW(table.ApplyText("seed = 5\n[a]\ncount = 5\n[b]\nrate = 7\n", "x.toml"), InputError);
   EXPECT_EQ(sample.seed, 1U);
+  EXPECT_EQ(sample.count, 3);
 }
 
 TEST(OptionTable, RefusesBrokenTomlWithItsLine) {
@@ -111,6 +116,109 @@ TEST(OptionTable, AMissingFileIsOneClearLine) {
   OptionTable table = TableOf(&sample);
   EXPECT_EQ(MessageOf([&] { table.ApplyFile("/nowhere/demo.toml"); }),
             "no such file (/nowhere/demo.toml): expected a TOML configuration file");
+}
+
+TEST(OptionTable, BothEndsOfARangeAreInIt) {
+  Sample sample;
+  OptionTable table = TableOf(&sample);
+  for (const int count : {1, 10}) {
+    table.ApplyOverride("a.count=" + std::to_string(count));
+    EXPECT_EQ(sample.count, count);
+  }
+  for (const double rate : {0.0, 1.0}) {
+    table.ApplyOverride("b.rate=" + std::to_string(rate));
+    EXPECT_EQ(sample.rate, rate);
+  }
+  for (const char* outside :
+       {"a.count=0", "a.count=11", "b.rate=-1e-9", "b.rate=1.000001", "b.rate=inf"}) {
+    EXPECT_THROW(table.ApplyOverride(outside), InputError) << outside;
+  }
+}
+
+struct Unbounded {
+  int whole = 0;
+  double at_least = 3.0, any = -0.5;
+  std::string text = "a \"b\"";
+  bool off = false;
+};
+
+OptionTable TableOf(Unbounded* values) {
+  const double inf = std::numeric_limits<double>::infinity();
+  OptionTable table;
+  table.Add("m.whole", &values->whole, -inf, inf, "any whole");
+  table.Add("m.low", &values->at_least, 2.5, inf, "half open");
+  table.Add("k.any", &values->any, -inf, inf, "any number");
+  table.Add("top", &values->text, {}, "any text");
+  table.Add("k.off", &values->off, "no");
+  return table;
+}
+
+TEST(OptionTable, SaysWhatEachOptionTakes) {
+  Sample sample;
+  std::vector<std::string> accepted, keys;
+  const OptionTable ranged = TableOf(&sample);
+  for (const Option& option : ranged.options()) accepted.push_back(Accepted(option));
+  EXPECT_EQ(accepted, (std::vector<std::string>{"true or false", "a whole number in [1, 10]",
+                                                "a whole number of at least 0",
+                                                "a number in [0, 1]", "one of slow, fast"}));
+  Unbounded values;
+  accepted.clear();
+  const OptionTable unbounded = TableOf(&values);
+  for (const Option& option : unbounded.options()) {
+    accepted.push_back(Accepted(option));
+    keys.push_back(option.key + ": " + option.help);
+  }
+  EXPECT_EQ(accepted, (std::vector<std::string>{"a whole number", "a number of at least 2.5",
+                                                "a number", "text", "true or false"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{"m.whole: any whole", "m.low: half open",
+                                            "k.any: any number", "top: any text", "k.off: no"}));
+}
+
+TEST(OptionTable, DumpIsTomlWithSectionsInTheOrderOfTheOptions) {
+  Unbounded values;
+  values.whole = -7;
+  EXPECT_EQ(TableOf(&values).Dump(),
+            "top = 'a \"b\"'  # any text\n"
+            "\n[m]\nwhole = -7  # any whole\nlow = 3.0  # half open\n"
+            "\n[k]\nany = -0.5  # any number\noff = false  # no\n");
+}
+
+TEST(OptionTable, WholeNumbersMustFitThirtyTwoBits) {
+  Unbounded values;
+  OptionTable table = TableOf(&values);
+  table.ApplyOverride("m.whole=2147483647");
+  EXPECT_EQ(values.whole, 2147483647);
+  table.ApplyOverride("m.whole=-2147483648");
+  EXPECT_EQ(values.whole, std::numeric_limits<int>::min());
+  EXPECT_EQ(MessageOf([&] { table.ApplyOverride("m.whole=2147483648"); }),
+            "m.whole = 2147483648 (--set): expected a whole number");
+}
+
+TEST(OptionTable, OverridesSplitAtTheFirstEqualsSign) {
+  Unbounded values;
+  OptionTable table = TableOf(&values);
+  table.ApplyOverride("top=x=y");
+  EXPECT_EQ(values.text, "x=y");
+  table.ApplyOverride("top=");
+  EXPECT_EQ(values.text, "");
+  EXPECT_EQ(MessageOf([&] { table.ApplyOverride("top"); }),
+            "top (--set): expected key=value, e.g. gan.batch=32");
+  EXPECT_EQ(MessageOf([&] { table.ApplyOverride("=3"); }),
+            "=3 (--set): expected key=value, e.g. gan.batch=32");
+  EXPECT_EQ(MessageOf([&] { table.ApplyValue("m.low", "2", "--low"); }),
+            "m.low = 2 (--low): expected a number of at least 2.5");
+}
+
+// What another version wrote: its unknown keys go unless they begin with the given text.
+TEST(OptionTable, KnownKeysOfAnotherVersionsFileAreTaken) {
+  Sample sample;
+  OptionTable table = TableOf(&sample);
+  table.ApplyKnown("old = 1\n[a]\ncount = 4\nnew = 2\n", "x.toml", "b.");
+  EXPECT_EQ(sample.count, 4);
+  EXPECT_EQ(MessageOf([&] { table.ApplyKnown("[a]\ncount = 5\n[b]\nmoed = 2\n", "x.toml", "b."); }),
+            "unknown key b.moed (x.toml:4): expected a known key; the nearest is b.mode");
+  EXPECT_EQ(sample.count, 4);
+  EXPECT_THROW(table.ApplyText("old = 1\n", "x.toml"), InputError);
 }
 
 }  // namespace

@@ -3,7 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <numeric>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "antigrasp/core/error.h"
@@ -54,6 +59,54 @@ TEST(ParallelFor, LetsAProgressCallbackInterrupt) {
 
 TEST(ParallelFor, DoesNothingForAnEmptyRange) {
   ParallelFor(0, 2, [](std::int64_t) { FAIL(); });
+  ParallelFor(-1, 2, [](std::int64_t) { FAIL(); });
+}
+
+TEST(ParallelFor, OneThreadIsTheCallersInOrder) {
+  std::vector<std::int64_t> order;
+  const std::thread::id caller = std::this_thread::get_id();
+  ParallelFor(200, 1, [&](std::int64_t i) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    order.push_back(i);
+  });
+  std::vector<std::int64_t> expected(200);
+  std::iota(expected.begin(), expected.end(), 0);
+  EXPECT_EQ(order, expected);
+}
+
+// Every item waits until all three are there: fewer threads would never get that far.
+TEST(ParallelFor, RunsAsManyAtATimeAsItIsTold) {
+  std::mutex mutex;
+  std::condition_variable arrived;
+  int here = 0;
+  ParallelFor(3, 3, [&](std::int64_t) {
+    std::unique_lock<std::mutex> lock(mutex);
+    ++here;
+    arrived.notify_all();
+    EXPECT_TRUE(arrived.wait_for(lock, std::chrono::seconds(60), [&] { return here == 3; }));
+  });
+  EXPECT_GE(HardwareThreads(), 1);
+}
+
+TEST(ParallelFor, ProgressComesAfterItsItem) {
+  std::atomic<int> finished{0};
+  ParallelFor(
+      50, 2, [&](std::int64_t) { ++finished; },
+      [&](std::int64_t done, std::int64_t) { EXPECT_GE(finished, done); });
+}
+
+TEST(ParallelFor, TheFirstExceptionIsTheOneThatLeaves) {
+  int ran = 0;
+  try {
+    ParallelFor(100, 1, [&](std::int64_t i) {
+      ++ran;
+      if (i >= 3) throw InputError("item " + std::to_string(i), "here", "fewer");
+    });
+    FAIL() << "nothing thrown";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "item 3 (here): expected fewer");
+  }
+  EXPECT_EQ(ran, 4);
 }
 
 }  // namespace

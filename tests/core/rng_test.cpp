@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <set>
+#include <stdexcept>
 #include <vector>
 
 namespace antigrasp {
@@ -70,6 +71,62 @@ TEST(RngStream, BelowIsUniformOverSmallRanges) {
   std::vector<int> counts(5);
   for (int i = 0; i < 50000; ++i) ++counts[rng.Below(5)];
   for (const int count : counts) EXPECT_NEAR(count, 10000, 450);
+}
+
+// Saved sets, scores and checkpoints come from these numbers: they may never change.
+TEST(RngStream, TheFirstWordsOfAWorkItemAreFixed) {
+  using Words = std::array<std::uint32_t, 6>;  // the fifth begins the second block
+  const auto first = [](RngStream rng) {
+    Words words;
+    for (auto& word : words) word = rng.NextU32();
+    return words;
+  };
+  EXPECT_EQ(first({1, "grasp", 2, 3}),
+            (Words{0xc4915257, 0x85b69b33, 0x1db8b5b2, 0xcf851bb8, 0xc3b4a163, 0x3d0d546c}));
+  EXPECT_EQ(first({1, "grasp", 3, 2}),
+            (Words{0xbf9e3f63, 0xa5214b1d, 0xc572b80c, 0x3244dc31, 0x27531ac8, 0xdbf84ad3}));
+  EXPECT_EQ(first({1, "grasp"}),
+            (Words{0xb9fd5694, 0x6e11a3d6, 0xd511385a, 0x1d4073e3, 0x897e14c9, 0xb7fb02b1}));
+  EXPECT_EQ(first({1, "grasp", 0, 0}), first({1, "grasp"}));
+  EXPECT_EQ(first({std::uint64_t{1} << 63, "noise", 7}),
+            (Words{0x0fb40e4d, 0xff91a901, 0xc56e6143, 0xd13abdf0, 0x591c56dd, 0x50e484cb}));
+}
+
+// Each from the words of (1, "grasp", 2, 3) above.
+TEST(RngStream, EveryKindOfNumberFollowsFromTheWords) {
+  const RngStream start(1, "grasp", 2, 3);
+  RngStream rng = start;
+  EXPECT_EQ(rng.NextU64(), 0x85b69b33c4915257U);  // the low half comes first
+  EXPECT_EQ(rng.NextU64(), 0xcf851bb81db8b5b2U);
+  rng = start;
+  EXPECT_EQ(rng.Uniform(), 0.5223176003824552);  // the upper 53 bits over 2^53
+  EXPECT_EQ(rng.Uniform(), 0.8106248211385914);
+  rng = start;
+  EXPECT_EQ(rng.Uniform(-1.0, 3.0), -1.0 + 4.0 * 0.5223176003824552);
+  rng = start;
+  for (const std::uint64_t expected : {391U, 818U, 691U, 124U}) {
+    EXPECT_EQ(rng.Below(1000), expected);
+  }
+  EXPECT_EQ(rng.Below(1), 0U);
+  EXPECT_THROW(rng.Below(0), std::logic_error);
+}
+
+// Box-Muller: sqrt(-2 ln(1 - u)) times the cosine, then the sine, of 2 pi v.
+TEST(RngStream, NormalsComeInPairsTheCosineFirst) {
+  RngStream rng(1, "grasp", 2, 3);
+  EXPECT_NEAR(rng.Normal(), 0.45191597115485077, 1e-15);
+  EXPECT_NEAR(rng.Normal(), -1.1284459940823166, 1e-15);
+  EXPECT_EQ(rng.NextU64(), 0x3d0d546cc3b4a163U);  // two uniforms made both
+}
+
+// n = 2^63 + 1: 2^64 mod n = 2^63 - 1, so a word below that is drawn again. The words begin 85..,
+// cf.., 3d.., 3a.., 8c..; those kept lose n.
+TEST(RngStream, BelowDrawsAgainWhereARemainderWouldBeLikelier) {
+  RngStream rng(1, "grasp", 2, 3);
+  const std::uint64_t n = (std::uint64_t{1} << 63) + 1;
+  EXPECT_EQ(rng.Below(n), 0x05b69b33c4915256U);
+  EXPECT_EQ(rng.Below(n), 0x4f851bb81db8b5b1U);
+  EXPECT_EQ(rng.Below(n), 0x0c92bb0b9bd1cf38U);
 }
 
 }  // namespace
