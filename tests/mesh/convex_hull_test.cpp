@@ -53,5 +53,15 @@ TEST(ConvexHull, OfPointsInAPlaneHasNoFaces) {
   EXPECT_TRUE(ConvexHull({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}, {5, 2, 1}}).faces.empty());
 }
 
+// Corners sorted by x, y, z; every face from its lowest corner on, counter-clockwise from outside;
+// faces sorted: sums over a hull have the same bits in every run.
+TEST(ConvexHull, HasAnOrderOfItsOwn) {
+  const TriangleMesh hull =
+      ConvexHull({{1, 0, 0}, {0.2, 0.2, 0.2}, {0, 1, 0}, {0, 0, 0}, {0, 0, 1}});
+  EXPECT_EQ(hull.vertices, (std::vector<Vector3d>{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {1, 0, 0}}));
+  EXPECT_EQ(hull.faces,
+            (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}));
+}
+
 }  // namespace
 }  // namespace antigrasp

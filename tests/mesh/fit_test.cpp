@@ -20,5 +20,21 @@ TEST(FitToPlate, RefusesAMeshWithoutExtent) {
   EXPECT_THROW(FitToPlate(TriangleMesh{}, 1.0), std::logic_error);
 }
 
+// A lopsided shape: its middle is that of the box around it, not of its mass (1/4 of each edge).
+TEST(FitToPlate, CentresTheBoxAroundTheShape) {
+  const TriangleMesh fitted = FitToPlate(shapes::Tetrahedron(), 10.0);
+  const std::vector<Eigen::Vector3d> expected{{-5, -5, 0}, {5, -5, 0}, {-5, 5, 0}, {-5, -5, 10}};
+  EXPECT_EQ(fitted.vertices, expected);
+  EXPECT_EQ(fitted.faces, shapes::Tetrahedron().faces);
+}
+
+TEST(FitToPlate, TheLargestExtentMayBeAnyAxis) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Vector3d extents(1, 1, 1);
+    extents[axis] = 4;
+    EXPECT_EQ(Bounds(FitToPlate(shapes::Box(extents), 8.0)).Extent(), 2.0 * extents);
+  }
+}
+
 }  // namespace
 }  // namespace antigrasp

@@ -94,7 +94,8 @@ TEST(ToTriangleMesh, MergesExactlyEqualPositionsOnly) {
   soup.corners = {0, 1, 2, 3, 4, 5};
   soup.ends = {3, 6};
   const TriangleMesh mesh = ToTriangleMesh(soup, "x");
-  EXPECT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_EQ(mesh.vertices,
+            (std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 1e-300}}));
   EXPECT_EQ(mesh.faces[1], (std::array<std::int32_t, 3>{0, 2, 3}));
 }
 

@@ -180,5 +180,64 @@ TEST(Repair, IsIdempotentOnRandomDamage) {
   }
 }
 
+// A box of diagonal sqrt(14) with one of the copies of its corner (-.5, -1, -1.5) a step away.
+TriangleMesh BoxWithASeam(double step, double scale) {
+  TriangleMesh mesh = Exploded(shapes::Box({1, 2, 3}));
+  const auto corner =
+      std::find(mesh.vertices.rbegin(), mesh.vertices.rend(), Eigen::Vector3d(-0.5, -1.0, -1.5));
+  corner->x() += step;
+  return Transformed(mesh, scale, Eigen::Vector3d::Zero());
+}
+
+// Near is 1e-7 of the diagonal: 3.74e-7 here, at any size of the mesh.
+TEST(Repair, ClosesSeamsUpToAShareOfTheDiagonal) {
+  for (const double scale : {1.0, 1e-3, 1024.0}) {
+    const RepairResult near = Repair(BoxWithASeam(3.6e-7, scale));
+    EXPECT_TRUE(near.accepted()) << near.refusal;
+    EXPECT_EQ(near.actions, (std::vector<std::string>{"merged 27 duplicate vertices",
+                                                      "merged 1 nearly equal vertex"}))
+        << "scale " << scale;
+    // The first copy in the file is the one that stays.
+    EXPECT_EQ(Bounds(near.mesh).min, scale * Eigen::Vector3d(-0.5, -1.0, -1.5));
+    EXPECT_EQ(near.mesh.vertices.size(), 8u);
+    EXPECT_TRUE(Repair(BoxWithASeam(3.9e-7, scale)).refusal.starts_with("open: "));
+  }
+}
+
+TEST(Repair, TellsWhatItDidInTheOrderItWasDone) {
+  TriangleMesh mesh = shapes::Cube();
+  mesh.vertices.push_back(mesh.vertices[7]);
+  mesh.faces[11] = {1, 8, 5};  // {1, 7, 5} over the copy
+  mesh.faces.push_back({2, 2, 4});
+  mesh.faces.push_back({mesh.faces[3][2], mesh.faces[3][0], mesh.faces[3][1]});
+  mesh.vertices.push_back({8, 8, 8});
+  mesh.vertices.push_back({8, 8, 9});
+  std::swap(mesh.faces[4][0], mesh.faces[4][1]);
+  const RepairResult result = Repair(mesh);
+  EXPECT_EQ(result.actions,
+            (std::vector<std::string>{"merged 1 duplicate vertex", "removed 1 degenerate face",
+                                      "removed 1 duplicate face", "removed 2 unused vertices",
+                                      "turned 1 wrongly wound face"}));
+  EXPECT_EQ(result.mesh.vertices, shapes::Cube().vertices);
+  EXPECT_TRUE(result.accepted()) << result.refusal;
+}
+
+TEST(Repair, EveryPieceIsTurnedByItself) {
+  const TriangleMesh far = Transformed(shapes::Box({1, 2, 3}), 1.0, {9, 0, 0});
+  const RepairResult result = Repair(shapes::Joined(shapes::Cube(), shapes::Inverted(far)));
+  EXPECT_EQ(result.actions, std::vector<std::string>{"turned 12 wrongly wound faces"});
+  EXPECT_DOUBLE_EQ(result.report.volume, 7.0);
+  EXPECT_EQ(result.refusal, "disjoint pieces: 2");
+}
+
+TEST(Repair, TheMajorityOfAnOpenSheetIsRight) {
+  TriangleMesh sheet{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}},
+                     {{{0, 1, 2}, {0, 3, 2}, {1, 4, 2}}}};
+  const RepairResult result = Repair(sheet);
+  EXPECT_EQ(result.actions, std::vector<std::string>{"turned 1 wrongly wound face"});
+  for (std::size_t f = 0; f < 3; ++f) EXPECT_GT(FaceCross(result.mesh, f).z(), 0.0);
+  EXPECT_EQ(result.refusal, "open: 5 boundary edges");
+}
+
 }  // namespace
 }  // namespace antigrasp

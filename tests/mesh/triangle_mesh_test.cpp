@@ -89,5 +89,32 @@ TEST(TriangleMesh, BoundsAreTightAndZeroForNothing) {
   EXPECT_EQ(CenterOfMass(TriangleMesh{}), Eigen::Vector3d::Zero());
 }
 
+TEST(TriangleMesh, AFacesCrossIsTwiceItsAreaOnItsLeftHandSide) {
+  // (2, 0, 0) x (0, 3, 0) = (0, 0, 6); and a face on no axis: (1, 2, 0) x (0, 1, 3) = (6, -3, 1).
+  const TriangleMesh mesh{{{1, 1, 1}, {3, 1, 1}, {1, 4, 1}, {2, 3, 1}, {1, 2, 4}},
+                          {{{0, 1, 2}, {0, 3, 4}}}};
+  EXPECT_EQ(FaceCross(mesh, 0), Eigen::Vector3d(0, 0, 6));
+  EXPECT_EQ(FaceCross(mesh, 1), Eigen::Vector3d(6, -3, 1));
+  EXPECT_DOUBLE_EQ(SurfaceArea(mesh), 0.5 * (6.0 + std::sqrt(46.0)));
+}
+
+TEST(TriangleMesh, TransformedScalesAboutTheOriginThenMoves) {
+  const TriangleMesh moved = Transformed({{{1, 2, 3}}, {}}, 2.0, {10.0, 20.0, 40.0});
+  EXPECT_EQ(moved.vertices[0], Eigen::Vector3d(12, 24, 46));
+  EXPECT_EQ(Bounds(moved).min, Bounds(moved).max);
+}
+
+// Volume 6 at the origin, volume 2 at (10, 4, -8): a quarter of the way. By area, 22 and 10, or by
+// vertices it would be elsewhere.
+TEST(TriangleMesh, CenterOfMassIsThatOfTheSolid) {
+  const TriangleMesh pair =
+      shapes::Joined(shapes::Box({1, 2, 3}), Transformed(shapes::Box({2, 1, 1}), 1.0, {10, 4, -8}));
+  EXPECT_TRUE(CenterOfMass(pair).isApprox(Eigen::Vector3d(2.5, 1.0, -2.0), 1e-14));
+  // An open sheet of two squares, areas 1 and 4, has the middle of its area.
+  const TriangleMesh sheet = shapes::Joined(
+      shapes::FlatSquare(), Transformed(shapes::FlatSquare(), 2.0, {5.0, 10.0, 0.0}));
+  EXPECT_TRUE(CenterOfMass(sheet).isApprox(Eigen::Vector3d(4.0, 8.0, 0.0), 1e-14));
+}
+
 }  // namespace
 }  // namespace antigrasp

@@ -45,5 +45,17 @@ TEST(FirstNear, JoinsNothingAtZeroTolerance) {
   EXPECT_EQ(FirstNear({{0, 0, 0}, {0, 0, 1e-9}}, 0.0), (std::vector<std::int32_t>{0, 1}));
 }
 
+TEST(FirstNear, ATolerancesLengthIsStillNear) {
+  const std::vector<Eigen::Vector3d> row{{0, 0, 0}, {0.75, 0, 0}, {0.25, 0, 0}, {0.5, 0, 0}};
+  // Steps of exactly a quarter: one cluster, named by its first.
+  EXPECT_EQ(FirstNear(row, 0.25), (std::vector<std::int32_t>{0, 0, 0, 0}));
+  EXPECT_EQ(FirstNear(row, 0.2499), (std::vector<std::int32_t>{0, 1, 2, 3}));
+  // 3-4-5: near in space, not near on each axis.
+  EXPECT_EQ(FirstNear({{9, 9, 9}, {0, 3, 4}, {0, 0, 0}}, 5.0),
+            (std::vector<std::int32_t>{0, 1, 1}));
+  EXPECT_EQ(FirstNear({{9, 9, 9}, {0, 3, 4}, {0, 0, 0}}, 4.9),
+            (std::vector<std::int32_t>{0, 1, 2}));
+}
+
 }  // namespace
 }  // namespace antigrasp

@@ -1,0 +1,156 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "antigrasp/core/error.h"
+#include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/mesh/text_scanner.h"
+#include "tests/support/temp_folder.h"
+
+// Literal files with a lopsided triangle in each: axes, corners and index bases told apart.
+namespace antigrasp {
+namespace {
+
+using shapes::TempFolder;
+using Face = std::array<std::int32_t, 3>;
+using Eigen::Vector3d;
+
+TriangleMesh Read(const std::string& name, const std::string& bytes) {
+  const TempFolder folder;
+  return ReadMesh(folder.Write(name, bytes));
+}
+
+template <typename T>
+std::string Raw(std::initializer_list<T> values) {
+  std::string bytes;
+  for (const T value : values) bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
+  return bytes;
+}
+
+const std::vector<Vector3d> kCorners{{1, 2, 3}, {-4, 5, 6}, {7, 8, -9.5}};
+
+void ExpectTheTriangle(const TriangleMesh& mesh) {
+  EXPECT_EQ(mesh.vertices, kCorners);
+  EXPECT_EQ(mesh.faces, (std::vector<Face>{{0, 1, 2}}));
+}
+
+TEST(ReadMesh, EveryFormatGivesTheSameTriangle) {
+  ExpectTheTriangle(Read("a.obj", "v 1 2 3\nv -4 5 6\nv 7 8 -9.5\nf 1 2 3\n"));
+  ExpectTheTriangle(Read("a.off", "OFF\n3 1 0\n1 2 3\n-4 5 6\n7 8 -9.5\n3 0 1 2\n"));
+  ExpectTheTriangle(Read("a.stl",
+                         "solid\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex -4 5 6\n"
+                         "vertex 7 8 -9.5\nendloop\nendfacet\nendsolid\n"));
+  // The normal points the wrong way: the corners are believed.
+  ExpectTheTriangle(Read("a.stl", std::string(80, 'h') + Raw<std::uint32_t>({1}) +
+                                      Raw<float>({0, 0, -1, 1, 2, 3, -4, 5, 6, 7, 8, -9.5F}) +
+                                      "ab"));
+}
+
+TEST(ReadMesh, PlyCoordinatesGoByNameAndIndicesFromZero) {
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  ExpectTheTriangle(Read("a.ply",
+                         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float z\n"
+                         "property float x\nproperty float y\n" +
+                             faces + "3 1 2\n6 -4 5\n-9.5 7 8\n3 0 1 2\n"));
+  // Faces may come before their vertices.
+  ExpectTheTriangle(Read("a.ply",
+                         "ply\nformat ascii 1.0\nelement face 1\n"
+                         "property list uchar int vertex_indices\nelement vertex 3\n"
+                         "property float x\nproperty float y\nproperty float z\nend_header\n"
+                         "3 0 1 2\n1 2 3\n-4 5 6\n7 8 -9.5\n"));
+}
+
+// z of the third vertex as each of the types, little and big endian, with a value that only this
+// type holds: 200 is no int8, -3 no unsigned one.
+TEST(ReadMesh, PlyKnowsEveryTypeByBothNames) {
+  struct Case {
+    std::array<const char*, 2> names;
+    std::string bytes;
+    double value;
+  };
+  const std::vector<Case> cases{{{"char", "int8"}, Raw<std::int8_t>({-3}), -3},
+                                {{"uchar", "uint8"}, Raw<std::uint8_t>({200}), 200},
+                                {{"short", "int16"}, Raw<std::int16_t>({-300}), -300},
+                                {{"ushort", "uint16"}, Raw<std::uint16_t>({40000}), 40000},
+                                {{"int", "int32"}, Raw<std::int32_t>({-70000}), -70000},
+                                {{"uint", "uint32"}, Raw<std::uint32_t>({3000000000U}), 3e9},
+                                {{"float", "float32"}, Raw<float>({-0.375F}), -0.375},
+                                {{"double", "float64"}, Raw<double>({1.0 / 3}), 1.0 / 3}};
+  const auto zero = [](std::size_t size) { return std::string(size, '\0'); };
+  for (const Case& c : cases) {
+    for (const char* name : c.names) {
+      for (const bool big : {false, true}) {
+        const std::string swapped(c.bytes.rbegin(), c.bytes.rend());
+        const std::size_t size = c.bytes.size();
+        const TriangleMesh mesh =
+            Read("a.ply", "ply\nformat binary_" + std::string(big ? "big" : "little") +
+                              "_endian 1.0\nelement vertex 3\nproperty char x\nproperty char y\n"
+                              "property " +
+                              name +
+                              " z\nelement face 1\n"
+                              "property list uchar char vertex_index\nend_header\n" +
+                              zero(2 + size) + "\1" + zero(1 + size) + zero(1) + "\1" +
+                              (big ? swapped : c.bytes) + std::string("\3\0\1\2", 4));
+        ASSERT_EQ(mesh.vertices.size(), 3u) << name;
+        EXPECT_EQ(mesh.vertices[1], Vector3d(1, 0, 0)) << name;
+        EXPECT_EQ(mesh.vertices[2], Vector3d(0, 1, c.value)) << name;
+      }
+    }
+  }
+}
+
+TEST(ReadMesh, VerticesKeepTheOrderOfTheFileWithoutRepeats) {
+  const TriangleMesh mesh = Read("a.obj",
+                                 "v 5 0 0\nv 1 2 3\nv 5 0 0\nv 0 0 7\nv 1 2 3\nv 0 9 0\n"
+                                 "f 3 2 4\nf -2 -1 -3\n");
+  EXPECT_EQ(mesh.vertices, (std::vector<Vector3d>{{5, 0, 0}, {1, 2, 3}, {0, 0, 7}, {0, 9, 0}}));
+  EXPECT_EQ(mesh.faces, (std::vector<Face>{{0, 1, 2}, {1, 3, 2}}));
+}
+
+// A rhombus six long and two wide: the short diagonal, and the winding of the file.
+TEST(ReadMesh, AFlatQuadIsCutAcrossItsShortDiagonal) {
+  const TriangleMesh mesh = Read("a.off", "OFF\n4 1 0\n0 0 0\n3 -1 0\n6 0 0\n3 1 0\n4 0 1 2 3\n");
+  EXPECT_EQ(mesh.faces, (std::vector<Face>{{3, 0, 1}, {3, 1, 2}}));
+  for (std::size_t f = 0; f < 2; ++f) EXPECT_EQ(FaceCross(mesh, f), Vector3d(0, 0, 6));
+}
+
+TEST(TextScanner, CountsLinesWhateverTheirEnd) {
+  for (const char* text : {"a b\n\nc\nd", "a b\r\n\r\nc\r\nd", "a b\r\rc\rd"}) {
+    TextScanner scanner(text, "x");
+    EXPECT_EQ(scanner.NextWord(), "a");
+    EXPECT_EQ(scanner.NextWord(), "b");
+    EXPECT_EQ(scanner.Where(), "x:1");
+    EXPECT_EQ(scanner.NextLine(), "");
+    EXPECT_EQ(scanner.NextWord(), "c");
+    EXPECT_EQ(scanner.Where(), "x:3");
+    EXPECT_EQ(scanner.NextWord(), "d");
+    EXPECT_EQ(scanner.Where(), "x:4");
+    EXPECT_FALSE(scanner.NextWord().has_value());
+    EXPECT_FALSE(scanner.NextLine().has_value());
+  }
+}
+
+TEST(TextScanner, NumbersAreWholeWords) {
+  EXPECT_EQ(ParseNumber("+1.5"), 1.5);
+  EXPECT_EQ(ParseNumber("-2E-1"), -0.2);
+  EXPECT_EQ(ParseNumber("1e-999"), 0.0);
+  EXPECT_EQ(ParseNumber("1e999"), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(ParseInteger("+7"), 7);
+  EXPECT_EQ(ParseInteger("-9223372036854775808"), std::numeric_limits<std::int64_t>::min());
+  for (const char* word : {"", "+", "+-1", "1x", "0x1", "--1"}) {
+    EXPECT_FALSE(ParseNumber(word).has_value()) << word;
+    EXPECT_FALSE(ParseInteger(word).has_value()) << word;
+  }
+  for (const char* word : {"1.0", "9223372036854775808"}) EXPECT_FALSE(ParseInteger(word)) << word;
+}
+
+TEST(TextScanner, MessagesQuoteFortyPrintableCharacters) {
+  EXPECT_EQ(Quoted("a\tb\x7F\xFF~ "), "'a?b??~ '");
+  EXPECT_EQ(Quoted(std::string(40, 'x')), "'" + std::string(40, 'x') + "'");
+  EXPECT_EQ(Quoted(std::string(41, 'x')), "'" + std::string(40, 'x') + "...'");
+}
+
+}  // namespace
+}  // namespace antigrasp
