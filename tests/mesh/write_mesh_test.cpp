@@ -91,6 +91,14 @@ TEST(WriteMesh, AnStlNormalPointsToTheSideItsFaceIsCounterClockwiseFrom) {
   EXPECT_EQ(Values<float>(Written("a.stl", slope), 84, 3), (std::vector<float>{0, -0.6F, 0.8F}));
 }
 
+TEST(WriteMesh, AnStlNormalIsThatOfTheStoredCorners) {
+  // 1 + 1e-9 is stored as 1: the normal is exactly e_x, and zero where no area is left.
+  const TriangleMesh rounded{{{1, 0, 0}, {1 + 1e-9, 1, 0}, {1, 0, 1}}, {{{0, 1, 2}, {0, 1, 1}}}};
+  const std::string bytes = Written("a.stl", rounded);
+  EXPECT_EQ(Values<float>(bytes, 84, 6), (std::vector<float>{1, 0, 0, 1, 0, 0}));
+  EXPECT_EQ(Values<float>(bytes, 134, 3), (std::vector<float>{0, 0, 0}));
+}
+
 TEST(WriteMesh, StlHasNoNegativeZeros) {
   const TriangleMesh mesh{{{-0.0, 0, -0.0}, {1, -0.0, 0}, {0, 1, 0}}, {{{0, 1, 2}}}};
   const TriangleMesh plain{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}}};
