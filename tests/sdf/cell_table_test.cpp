@@ -89,6 +89,19 @@ TEST(CellTable, OppositeInsideCornersOfAFaceAreSeparated) {
   EXPECT_EQ(TraceCellLoops(255 ^ (1 << 0 | 1 << 3)).size(), 1U);  // outside corners are joined
 }
 
+// Edges along x are 0 to 3, along y 4 to 7, along z 8 to 11. Scores of saved grids follow from
+// the diagonals chosen here.
+TEST(CellTable, ChoosesTheSameDiagonalsAlways) {
+  using Triangles = std::vector<CellTriangle>;
+  EXPECT_EQ(CellTable()[0], Triangles{});
+  EXPECT_EQ(CellTable()[1], (Triangles{{0, 4, 8}}));
+  EXPECT_EQ(CellTable()[254], (Triangles{{0, 8, 4}}));
+  EXPECT_EQ(CellTable()[15], (Triangles{{9, 11, 10}, {8, 9, 10}}));
+  EXPECT_EQ(CellTable()[23], (Triangles{{2, 9, 6}, {5, 2, 6}, {10, 5, 6}, {1, 10, 6}}));
+  EXPECT_EQ(CellTable()[51], (Triangles{{4, 5, 7}, {6, 4, 7}}));
+  EXPECT_EQ(CellTable()[105], (Triangles{{0, 4, 8}, {1, 6, 11}, {2, 7, 9}, {3, 5, 10}}));
+}
+
 // Other draws than those that chose the table, and exact arithmetic.
 TEST(CellTable, TrianglesOfACellNeverTouchWhereverTheCrossingsLie) {
   constexpr int kUnit = 1000;

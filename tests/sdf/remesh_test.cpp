@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
-#include <set>
-#include <string>
+#include <stdexcept>
 
 #include "tests/sdf/fields.h"
 
@@ -84,15 +84,69 @@ TEST(Remesh, EarlierTestsWin) {
   EXPECT_EQ(Remesh(grid).status, RemeshStatus::kNonFinite);
 }
 
-TEST(Remesh, NamesAreDistinctLowerSnake) {
-  std::set<std::string> names;
-  for (int i = 0; i < kNumRemeshStatuses; ++i) {
-    const std::string name(Name(static_cast<RemeshStatus>(i)));
-    EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_"), std::string::npos);
-    names.insert(name);
-  }
-  EXPECT_EQ(names.size(), static_cast<std::size_t>(kNumRemeshStatuses));
+TEST(Remesh, EveryStatusHasItsNameAndNumber) {
+  EXPECT_EQ(Name(RemeshStatus::kOk), "ok");
   EXPECT_EQ(Name(RemeshStatus::kNonFinite), "non_finite");
+  EXPECT_EQ(Name(RemeshStatus::kEmpty), "empty");
+  EXPECT_EQ(Name(RemeshStatus::kTouchesBorder), "touches_border");
+  EXPECT_EQ(Name(RemeshStatus::kGaps), "gaps");
+  EXPECT_EQ(Name(RemeshStatus::kNonManifold), "non_manifold");
+  EXPECT_EQ(Name(RemeshStatus::kNonOrientable), "non_orientable");
+  EXPECT_EQ(Name(RemeshStatus::kSelfIntersecting), "self_intersecting");
+  EXPECT_EQ(Name(RemeshStatus::kDisjoint), "disjoint");
+  // Tables have a column for each, in this order.
+  EXPECT_EQ(static_cast<int>(RemeshStatus::kOk), 0);
+  EXPECT_EQ(static_cast<int>(RemeshStatus::kTouchesBorder), 3);
+  EXPECT_EQ(static_cast<int>(RemeshStatus::kDisjoint), kNumRemeshStatuses - 1);
+  EXPECT_THROW(Name(static_cast<RemeshStatus>(kNumRemeshStatuses)), std::logic_error);
+}
+
+// A grid of outside with one node inside.
+SdfGrid OneNode(int x, int y, int z) {
+  SdfGrid grid = UnitCubeGrid(5);
+  grid.values.assign(125, -1.0F);
+  grid.values[25 * z + 5 * y + x] = 1.0F;
+  return grid;
+}
+
+TEST(Remesh, TheBorderIsTheOutermostNodesAndNoMore) {
+  const RemeshOptions quick{.check_self_intersection = false, .reject_border = true};
+  for (int z = 0; z < 5; ++z) {
+    for (int y = 0; y < 5; ++y) {
+      for (int x = 0; x < 5; ++x) {
+        const bool border = std::min({x, y, z}) == 0 || std::max({x, y, z}) == 4;
+        EXPECT_EQ(Name(Remesh(OneNode(x, y, z), quick).status), border ? "touches_border" : "ok")
+            << x << " " << y << " " << z;
+      }
+    }
+  }
+  // A node on the surface is outside.
+  SdfGrid grid = OneNode(2, 2, 2);
+  grid.values[0] = 0.0F;
+  EXPECT_TRUE(Remesh(grid).ok());
+}
+
+TEST(Remesh, TheFirstReasonCounts) {
+  // Two pieces, one of them at the border.
+  SdfGrid grid = OneNode(2, 2, 2);
+  grid.values[25 * 2 + 5 * 2] = 1.0F;
+  EXPECT_EQ(Remesh(grid).status, RemeshStatus::kTouchesBorder);
+  EXPECT_EQ(Remesh(grid).report.components, 2);
+  EXPECT_FALSE(Remesh(grid).mesh.faces.empty());
+  EXPECT_EQ(Remesh(grid, {.check_self_intersection = true, .reject_border = false}).status,
+            RemeshStatus::kDisjoint);
+  // A number that is none in a grid that is empty, or at its border.
+  grid.values[7] = -std::numeric_limits<float>::infinity();
+  EXPECT_EQ(Remesh(grid).status, RemeshStatus::kNonFinite);
+  SdfGrid empty = UnitCubeGrid(5);
+  empty.values[124] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(Remesh(empty).status, RemeshStatus::kNonFinite);
+  empty.values[124] = 0.0F;
+  EXPECT_EQ(Remesh(empty).status, RemeshStatus::kEmpty);
+  EXPECT_FALSE(Remesh(empty).report.closed);
+  EXPECT_TRUE(Remesh(empty).mesh.vertices.empty());
+  empty.values.pop_back();
+  EXPECT_THROW(Remesh(empty), std::logic_error);
 }
 
 }  // namespace
