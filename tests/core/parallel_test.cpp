@@ -63,11 +63,12 @@ TEST(ParallelFor, DoesNothingForAnEmptyRange) {
 }
 
 TEST(ParallelFor, OneThreadIsTheCallersInOrder) {
-  std::vector<std::int64_t> order;
+  std::vector<std::int64_t> order(200);
+  std::atomic<std::size_t> place{0};
   const std::thread::id caller = std::this_thread::get_id();
   ParallelFor(200, 1, [&](std::int64_t i) {
     EXPECT_EQ(std::this_thread::get_id(), caller);
-    order.push_back(i);
+    order[place++] = i;
   });
   std::vector<std::int64_t> expected(200);
   std::iota(expected.begin(), expected.end(), 0);
@@ -96,7 +97,7 @@ TEST(ParallelFor, ProgressComesAfterItsItem) {
 }
 
 TEST(ParallelFor, TheFirstExceptionIsTheOneThatLeaves) {
-  int ran = 0;
+  std::atomic<int> ran{0};
   try {
     ParallelFor(100, 1, [&](std::int64_t i) {
       ++ran;
