@@ -98,6 +98,15 @@ TEST(AtomicFile, ATemporaryNameIsHiddenBesideItsTarget) {
   EXPECT_NE(AtomicFile(folder.path() / "b.txt").temp_path(), temporary);
 }
 
+TEST(AtomicFile, WhatACrashLeftUnderTheTemporaryNameIsNotKept) {
+  const shapes::TempFolder folder;
+  const fs::path target = folder.path() / "a.txt";
+  std::ofstream(AtomicFile(target).temp_path()) << "left over, and longer";
+  WriteFileAtomic(target, "new");
+  EXPECT_EQ(ReadFile(target), "new");
+  EXPECT_EQ(FilesIn(folder.path()), 1);
+}
+
 TEST(AtomicFile, ANameWithoutAFolderIsInTheWorkingFolder) {
   const shapes::TempFolder folder;
   const fs::path before = fs::current_path();

@@ -70,6 +70,16 @@ TEST(OptionTable, NamesTheNearestKeyOfAnUnknownOne) {
   OptionTable table = TableOf(&sample);
   EXPECT_EQ(MessageOf([&] { table.ApplyText("[a]\ncuont = 1\n", "x.toml"); }),
             "unknown key a.cuont (x.toml:2): expected a known key; the nearest is a.count");
+  // By letters put in, left out or replaced, at one each; the first listed of equally near ones.
+  bool value = false;
+  OptionTable words;
+  for (const char* key : {"abxyefghi", "abcdef", "zbxdef"}) words.Add(key, &value, "");
+  EXPECT_EQ(MessageOf([&] { words.ApplyOverride("abxyef=1"); }),
+            "unknown key abxyef (--set): expected a known key; the nearest is abcdef");
+  EXPECT_EQ(MessageOf([&] { words.ApplyOverride("abxdef=1"); }),
+            "unknown key abxdef (--set): expected a known key; the nearest is abcdef");
+  EXPECT_EQ(MessageOf([&] { OptionTable().ApplyOverride("a=1"); }),
+            "unknown key a (--set): expected no keys");
 }
 
 TEST(OptionTable, AssignsNothingWhenAnyValueIsBad) {
@@ -125,6 +135,8 @@ TEST(OptionTable, BothEndsOfARangeAreInIt) {
     table.ApplyOverride("a.count=" + std::to_string(count));
     EXPECT_EQ(sample.count, count);
   }
+  table.ApplyOverride("seed=0");
+  EXPECT_EQ(sample.seed, 0U);
   for (const double rate : {0.0, 1.0}) {
     table.ApplyOverride("b.rate=" + std::to_string(rate));
     EXPECT_EQ(sample.rate, rate);
@@ -183,6 +195,15 @@ TEST(OptionTable, DumpIsTomlWithSectionsInTheOrderOfTheOptions) {
             "\n[k]\nany = -0.5  # any number\noff = false  # no\n");
 }
 
+TEST(OptionTable, SectionsMayBeNested) {
+  bool value = true;
+  OptionTable table;
+  table.Add("p.q.r", &value, "deep");
+  EXPECT_EQ(table.Dump(), "[p.q]\nr = true  # deep\n");
+  table.ApplyText("[p.q]\nr = false\n", "x.toml");
+  EXPECT_FALSE(value);
+}
+
 TEST(OptionTable, WholeNumbersMustFitThirtyTwoBits) {
   Unbounded values;
   OptionTable table = TableOf(&values);
@@ -213,7 +234,7 @@ TEST(OptionTable, OverridesSplitAtTheFirstEqualsSign) {
 TEST(OptionTable, KnownKeysOfAnotherVersionsFileAreTaken) {
   Sample sample;
   OptionTable table = TableOf(&sample);
-  table.ApplyKnown("old = 1\n[a]\ncount = 4\nnew = 2\n", "x.toml", "b.");
+  table.ApplyKnown("old = 1\n[a]\ncount = 4\nnew = 2\n[x.b]\nmode = 3\n", "x.toml", "b.");
   EXPECT_EQ(sample.count, 4);
   EXPECT_EQ(MessageOf([&] { table.ApplyKnown("[a]\ncount = 5\n[b]\nmoed = 2\n", "x.toml", "b."); }),
             "unknown key b.moed (x.toml:4): expected a known key; the nearest is b.mode");

@@ -38,6 +38,7 @@ void ExpectTheTriangle(const TriangleMesh& mesh) {
 
 TEST(ReadMesh, EveryFormatGivesTheSameTriangle) {
   ExpectTheTriangle(Read("a.obj", "v 1 2 3\nv -4 5 6\nv 7 8 -9.5\nf 1 2 3\n"));
+  ExpectTheTriangle(Read("a.obj", "v 1 2 3\nv -4 5 6\nv 7 8 -9.5\nfo 1 2 3\n"));  // of old
   ExpectTheTriangle(Read("a.off", "OFF\n3 1 0\n1 2 3\n-4 5 6\n7 8 -9.5\n3 0 1 2\n"));
   ExpectTheTriangle(Read("a.stl",
                          "solid\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex -4 5 6\n"
@@ -107,6 +108,19 @@ TEST(ReadMesh, VerticesKeepTheOrderOfTheFileWithoutRepeats) {
                                  "f 3 2 4\nf -2 -1 -3\n");
   EXPECT_EQ(mesh.vertices, (std::vector<Vector3d>{{5, 0, 0}, {1, 2, 3}, {0, 0, 7}, {0, 9, 0}}));
   EXPECT_EQ(mesh.faces, (std::vector<Face>{{0, 1, 2}, {1, 3, 2}}));
+}
+
+TEST(ReadMesh, APolygonHasAtMost4096Corners) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
+  for (int i = 0; i < 4097; ++i) text += " 1";
+  try {
+    Read("a.obj", text + "\n");
+    FAIL() << "nothing thrown";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_TRUE(message.starts_with("face 1 has 4097 corners (")) << message;
+    EXPECT_TRUE(message.ends_with("a.obj): expected 3 to 4096")) << message;
+  }
 }
 
 // A rhombus six long and two wide: the short diagonal, and the winding of the file.

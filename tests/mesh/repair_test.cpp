@@ -122,6 +122,24 @@ TEST(Repair, FlipsAZeroAreaSliverAwayAndStaysClosed) {
   EXPECT_DOUBLE_EQ(result.report.area, 6.0);
 }
 
+// Two corners on one edge, and two slivers that share a side: the second waits for the first.
+TEST(Repair, FlipsAChainOfSliversOneAfterTheOther) {
+  TriangleMesh mesh = shapes::Cube();
+  const auto [a, b, c] = mesh.faces[0];
+  const Eigen::Vector3d from = mesh.vertices[a], edge = mesh.vertices[b] - from;
+  mesh.vertices.push_back(from + 0.25 * edge);  // 8
+  mesh.vertices.push_back(from + 0.5 * edge);   // 9
+  mesh.faces[0] = {a, 8, c};
+  mesh.faces.insert(mesh.faces.end(), {{8, 9, c}, {9, b, c}, {a, b, 9}, {a, 9, 8}});
+  ASSERT_TRUE(Inspect(mesh, false).closed);
+  ASSERT_EQ(Inspect(mesh, false).degenerate_faces, 2);
+  const RepairResult result = Repair(mesh);
+  EXPECT_TRUE(result.accepted()) << result.refusal;
+  EXPECT_TRUE(Did(result, "flipped the long edge of 2 zero-area faces"));
+  EXPECT_DOUBLE_EQ(result.report.volume, 1.0);
+  EXPECT_DOUBLE_EQ(result.report.area, 6.0);
+}
+
 TEST(Repair, NeverInventsSurface) {
   TriangleMesh open = shapes::Sphere(1.0, 1);
   open.faces.pop_back();
@@ -202,6 +220,15 @@ TEST(Repair, ClosesSeamsUpToAShareOfTheDiagonal) {
     EXPECT_EQ(near.mesh.vertices.size(), 8u);
     EXPECT_TRUE(Repair(BoxWithASeam(3.9e-7, scale)).refusal.starts_with("open: "));
   }
+}
+
+TEST(Repair, LeavesASeamWhereTheMeshStaysOpenAnyway) {
+  TriangleMesh mesh = BoxWithASeam(3.6e-7, 1.0);
+  mesh.faces.erase(mesh.faces.begin());
+  const RepairResult result = Repair(mesh);
+  EXPECT_EQ(result.actions, std::vector<std::string>{"merged 27 duplicate vertices"});
+  EXPECT_EQ(result.mesh.vertices.size(), 9u);
+  EXPECT_TRUE(result.refusal.starts_with("open: "));
 }
 
 TEST(Repair, TellsWhatItDidInTheOrderItWasDone) {

@@ -44,6 +44,40 @@ TEST(MeshReport, PiecesAddUpAndHaveNoGenus) {
   EXPECT_NEAR(two.volume, 2.0 * Volume(torus), 1e-12);
 }
 
+// A torus whose second way round joins upside down: closed, manifold and one-sided. Where its
+// vertices are is of no matter.
+TEST(MeshReport, AKleinBottleIsClosedAndHasNoGenus) {
+  constexpr int kAround = 6, kAlong = 5;
+  TriangleMesh mesh;
+  const auto at = [&](int i, int j) {
+    if (i == kAlong) j = kAround - j;
+    return i % kAlong * kAround + j % kAround;
+  };
+  for (int i = 0; i < kAlong; ++i) {
+    for (int j = 0; j < kAround; ++j) {
+      mesh.vertices.push_back({1.0 * i * i, 1.0 * j * j, 1.0 * i * j});
+      mesh.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.faces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  const MeshReport report = Inspect(mesh, false);
+  EXPECT_TRUE(report.closed && report.manifold);
+  EXPECT_FALSE(report.orientable || report.oriented || report.outward);
+  EXPECT_EQ(report.components, 1);
+  EXPECT_EQ(report.genus, 0);
+  EXPECT_EQ(WhyNotSolid(report), "not orientable: one-sided surface");
+}
+
+TEST(MeshReport, ThreeFacesOnOneEdgeAreNotOriented) {
+  const TriangleMesh fins{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0}},
+                          {{{0, 1, 2}, {1, 0, 3}, {1, 0, 4}}}};
+  const MeshReport report = Inspect(fins);
+  EXPECT_EQ(report.nonmanifold_edges, 1);
+  EXPECT_EQ(report.boundary_edges, 6);
+  EXPECT_EQ(report.components, 1);
+  EXPECT_FALSE(report.orientable || report.oriented || report.closed || report.manifold);
+}
+
 // Without area: a height of less than 1e-12 of the longest edge, at any size.
 TEST(MeshReport, ADegenerateFaceIsOneOfNoHeightForItsLength) {
   for (const double length : {0.001, 1.0, 4.0}) {

@@ -62,9 +62,14 @@ TEST(TriangleMesh, IntegralsFollowARigidMotion) {
 }
 
 TEST(TriangleMesh, VolumeKeepsItsDigitsFarFromTheOrigin) {
-  const TriangleMesh far = Transformed(shapes::Cube(), 1.0, Eigen::Vector3d::Constant(1048576.0));
-  EXPECT_DOUBLE_EQ(Volume(far), 1.0);
-  EXPECT_TRUE(CenterOfMass(far).isApprox(Eigen::Vector3d::Constant(1048576.0), 1e-15));
+  // Coordinates of 20 binary places, so that the shift rounds nothing.
+  TriangleMesh home = shapes::Sphere(1.0, 1);
+  home.vertices[0] *= 1.5;
+  for (Eigen::Vector3d& v : home.vertices) v = (v * 0x1p20).array().round() * 0x1p-20;
+  const Eigen::Vector3d shift(0x1p30, -0x1p29, 0x1p30);
+  const TriangleMesh far = Transformed(home, 1.0, shift);
+  EXPECT_NEAR(Volume(far), Volume(home), 1e-13);
+  EXPECT_LT((CenterOfMass(far) - shift - CenterOfMass(home)).norm(), 1e-6);  // 2^-23 apart there
 }
 
 TEST(TriangleMesh, CenterOfMassWeighsSolidsByVolume) {
@@ -114,6 +119,19 @@ TEST(TriangleMesh, CenterOfMassIsThatOfTheSolid) {
   const TriangleMesh sheet = shapes::Joined(
       shapes::FlatSquare(), Transformed(shapes::FlatSquare(), 2.0, {5.0, 10.0, 0.0}));
   EXPECT_TRUE(CenterOfMass(sheet).isApprox(Eigen::Vector3d(4.0, 8.0, 0.0), 1e-14));
+}
+
+// A corner of legs 1, 1 and h is a solid, with its mass at a quarter, until nothing but rounding is
+// left of its volume; then it is a sheet, with its area at a third.
+TEST(TriangleMesh, AThinSolidIsStillASolid) {
+  const auto center = [](double h) {
+    TriangleMesh corner = shapes::Tetrahedron();
+    corner.vertices[3].z() = h;
+    return CenterOfMass(corner);
+  };
+  EXPECT_TRUE(center(1e-6).isApprox(Eigen::Vector3d(0.25, 0.25, 0.25e-6), 1e-6));
+  EXPECT_TRUE(center(1e-11).isApprox(Eigen::Vector3d(0.25, 0.25, 0.25e-11), 1e-4));
+  EXPECT_NEAR(center(1e-13).x(), 1.0 / 3, 1e-9);
 }
 
 }  // namespace
