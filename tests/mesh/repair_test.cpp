@@ -257,6 +257,14 @@ TEST(Repair, EveryPieceIsTurnedByItself) {
   EXPECT_EQ(result.refusal, "disjoint pieces: 2");
 }
 
+TEST(Repair, AnOpenBowlMayFaceInward) {
+  TriangleMesh bowl = shapes::Inverted(shapes::Tetrahedron());
+  bowl.faces.pop_back();
+  const RepairResult result = Repair(bowl);
+  EXPECT_TRUE(result.actions.empty());
+  EXPECT_EQ(result.mesh.faces, bowl.faces);
+}
+
 TEST(Repair, TheMajorityOfAnOpenSheetIsRight) {
   TriangleMesh sheet{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}},
                      {{{0, 1, 2}, {0, 3, 2}, {1, 4, 2}}}};

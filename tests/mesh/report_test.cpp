@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <utility>
 
 #include "antigrasp/mesh/inspect.h"
 #include "tests/support/shapes.h"
@@ -97,6 +98,34 @@ TEST(MeshReport, SelfIntersectionIsLookedForOnlyWhenAsked) {
   EXPECT_TRUE(Inspect(crossing).self_intersecting);
   EXPECT_TRUE(Inspect(crossing, true).self_intersecting);
   EXPECT_FALSE(Inspect(crossing, false).self_intersecting);
+}
+
+TEST(MeshReport, TwoFacesOnTheSameCornersIntersect) {
+  const TriangleMesh pillow{{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}, {{{0, 1, 2}, {0, 2, 1}}}};
+  const MeshReport report = Inspect(pillow);
+  EXPECT_TRUE(report.closed && report.oriented && report.self_intersecting);
+  EXPECT_FALSE(report.outward);
+  EXPECT_DOUBLE_EQ(report.area, 2.0);
+}
+
+// A corner shared, and the far side of one face through the other: seen from either.
+TEST(MeshReport, FacesThatShareACornerMayCrossElsewhere) {
+  TriangleMesh fan{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0.2, 1}, {0.5, 0.2, -1}},
+                   {{{0, 1, 2}, {0, 3, 4}}}};
+  EXPECT_TRUE(Inspect(fan).self_intersecting);
+  std::swap(fan.faces[0], fan.faces[1]);
+  EXPECT_TRUE(Inspect(fan).self_intersecting);
+  fan.vertices[4].z() = 0.5;
+  EXPECT_FALSE(Inspect(fan).self_intersecting);
+}
+
+// They are counted instead; a line through a face is no surface.
+TEST(MeshReport, FacesWithoutAreaCrossNothing) {
+  const TriangleMesh pierced{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {1, 1, 3}},
+                             {{{0, 1, 2}, {3, 4, 5}, {3, 4, 4}}}};
+  const MeshReport report = Inspect(pierced);
+  EXPECT_EQ(report.degenerate_faces, 2);
+  EXPECT_FALSE(report.self_intersecting);
 }
 
 MeshReport Solid() {

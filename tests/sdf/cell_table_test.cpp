@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <set>
 
@@ -96,10 +98,19 @@ TEST(CellTable, ChoosesTheSameDiagonalsAlways) {
   EXPECT_EQ(CellTable()[0], Triangles{});
   EXPECT_EQ(CellTable()[1], (Triangles{{0, 4, 8}}));
   EXPECT_EQ(CellTable()[254], (Triangles{{0, 8, 4}}));
+  EXPECT_EQ(CellTable()[7], (Triangles{{1, 10, 8}, {8, 9, 6}, {1, 8, 6}}));  // the roundest
   EXPECT_EQ(CellTable()[15], (Triangles{{9, 11, 10}, {8, 9, 10}}));
   EXPECT_EQ(CellTable()[23], (Triangles{{2, 9, 6}, {5, 2, 6}, {10, 5, 6}, {1, 10, 6}}));
   EXPECT_EQ(CellTable()[51], (Triangles{{4, 5, 7}, {6, 4, 7}}));
   EXPECT_EQ(CellTable()[105], (Triangles{{0, 4, 8}, {1, 6, 11}, {2, 7, 9}, {3, 5, 10}}));
+  // And all of it: FNV-1a over the number of triangles and the edges of every case.
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  const auto take = [&](std::size_t value) { hash = (hash ^ value) * 0x100000001b3U; };
+  for (const auto& triangles : CellTable()) {
+    take(triangles.size());
+    for (const CellTriangle& t : triangles) std::for_each(t.begin(), t.end(), take);
+  }
+  EXPECT_EQ(hash, 0x1364a7a069040471U);
 }
 
 // Other draws than those that chose the table, and exact arithmetic.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace antigrasp {
 namespace {
@@ -16,15 +17,18 @@ TEST(Orient2d, KnowsLeftRightAndStraight) {
 // The classic failure of the plain determinant (Kettner et al., "Classroom examples of robustness
 // problems"): points a few units in the last place around the line y = x.
 TEST(Orient2d, IsExactNextToALine) {
-  const Point2 q{12.0, 12.0}, r{24.0, 24.0};
   const double step = std::ldexp(1.0, -53);
-  for (int i = 0; i < 32; ++i) {
-    for (int j = 0; j < 32; ++j) {
-      const Point2 p{0.5 + i * step, 0.5 + j * step};
-      const int expected = (p.y > p.x) - (p.y < p.x);  // left of q -> r is above
-      EXPECT_EQ(Orient2dSign(q, r, p), expected) << i << " " << j;
-      EXPECT_EQ(Orient2dSign(r, q, p), -expected);
-      EXPECT_EQ(Orient2dSign(p, q, r), expected);
+  // The determinant rounds to 0 on the first line, to the wrong sign on the second.
+  for (const auto& [from, to] : {std::pair(12.0, 24.0), std::pair(8.1, 24.7)}) {
+    const Point2 q{from, from}, r{to, to};
+    for (int i = 0; i < 32; ++i) {
+      for (int j = 0; j < 32; ++j) {
+        const Point2 p{0.5 + i * step, 0.5 + j * step};
+        const int expected = (p.y > p.x) - (p.y < p.x);  // left of q -> r is above
+        EXPECT_EQ(Orient2dSign(q, r, p), expected) << i << " " << j;
+        EXPECT_EQ(Orient2dSign(r, q, p), -expected);
+        EXPECT_EQ(Orient2dSign(p, q, r), expected);
+      }
     }
   }
 }
