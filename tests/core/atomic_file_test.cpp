@@ -101,7 +101,9 @@ TEST(AtomicFile, ATemporaryNameIsHiddenBesideItsTarget) {
 TEST(AtomicFile, WhatACrashLeftUnderTheTemporaryNameIsNotKept) {
   const shapes::TempFolder folder;
   const fs::path target = folder.path() / "a.txt";
-  std::ofstream(AtomicFile(target).temp_path()) << "left over, and longer";
+  const fs::path temporary = AtomicFile(target).temp_path();
+  std::ofstream(temporary) << "left over, and longer";
+  ASSERT_TRUE(fs::exists(temporary));
   WriteFileAtomic(target, "new");
   EXPECT_EQ(ReadFile(target), "new");
   EXPECT_EQ(FilesIn(folder.path()), 1);
