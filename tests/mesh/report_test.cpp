@@ -115,6 +115,14 @@ TEST(MeshReport, FacesThatShareACornerMayCrossElsewhere) {
   EXPECT_TRUE(Inspect(fan).self_intersecting);
   std::swap(fan.faces[0], fan.faces[1]);
   EXPECT_TRUE(Inspect(fan).self_intersecting);
+  // The piercing face begins before the pierced one along x, and after it.
+  TriangleMesh late = fan;
+  late.vertices = {{0, 0, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 0, -1}, {2, 0, 1}};
+  EXPECT_TRUE(Inspect(late).self_intersecting);
+  for (auto& v : late.vertices) v = Eigen::Vector3d(-v.x(), -v.y(), v.z());
+  EXPECT_TRUE(Inspect(late).self_intersecting);
+  for (auto& v : fan.vertices) v = Eigen::Vector3d(-v.x(), -v.y(), v.z());
+  EXPECT_TRUE(Inspect(fan).self_intersecting);
   fan.vertices[4].z() = 0.5;
   EXPECT_FALSE(Inspect(fan).self_intersecting);
 }
