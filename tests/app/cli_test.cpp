@@ -296,79 +296,13 @@ TEST(Cli, PretrainedNetworksAreSampledByNameAndMakeSolids) {
   EXPECT_TRUE(names.contains("cylinders-prior"));
   for (const std::string& name : names) {
     EXPECT_NE(unknown.text.find(name), std::string::npos) << unknown.text;
-    const Outcome sample = Antigrasp("sample " + name + " --count 40 --out " + dir + "batch.h5");
+    const Outcome sample = Antigrasp("sample " + name + " --count 16 --out " + dir + "batch.h5");
     ASSERT_EQ(sample.code, 0) << sample.text;
     int solids = 0;
     for (const SdfGrid& grid : ReadShapeSet(folder / "batch.h5").grids) {
       solids += Remesh(grid).ok() ? 1 : 0;
     }
-    EXPECT_GE(solids, 34) << name;
-  }
-}
-
-TEST(Cli, ARunCanBeKilledResumedSampledAndExported) {
-  const TempFolder folder;
-  const std::string dir = folder.path().string() + "/";
-  const std::string start = " train " + kSmoke + " --threads 2 --out " + dir;
-  ASSERT_EQ(Antigrasp(start + "whole").code, 0);
-  // SIGINT, then SIGKILL, then to the end.
-  const std::string binary = ANTIGRASP_BINARY;
-  for (const char* seconds : {"1.5", "3", "6", "12", "24"}) {  // until it came as far as a run
-    if (fs::exists(folder / "parts/config.toml")) break;
-    Shell(std::string("timeout -s INT ") + seconds + " " + binary + start + "parts");
-  }
-  ASSERT_TRUE(fs::exists(folder / "parts/config.toml"));
-  Shell("timeout -s KILL 2 " + binary + " train --resume " + dir + "parts");
-  ASSERT_EQ(Antigrasp("train --resume " + dir + "parts").code, 0);
-  for (const char* name : {"checkpoint.pt", "episode_0/scores.csv", "episode_2/scores.csv",
-                           "episode_2/elites.h5", "control/checkpoint.pt"}) {
-    EXPECT_TRUE(ReadFile(folder / "whole" / name) == ReadFile(folder / "parts" / name)) << name;
-  }
-  ExpectRefused(start + "whole", "a run is already there");
-  EXPECT_EQ(Antigrasp(start + "parts --or-resume --overwrite --set cem.episodes=0").code, 0);
-  const Outcome again = Antigrasp(start + "whole --or-resume");
-  EXPECT_EQ(again.code, 0);
-  EXPECT_NE(again.text.find("control 2"), std::string::npos) << again.text;
-  ExpectRefused(start + "whole --or-resume --seed 2", "other settings");
-
-  ASSERT_EQ(Antigrasp("sample " + dir + "whole --count 5 --seed 7 --out " + dir + "5.h5").code, 0);
-  ASSERT_EQ(Antigrasp("sample " + dir + "whole --count 9 --seed 7 --out " + dir + "9.h5").code, 0);
-  EXPECT_EQ(ReadShapeSet(folder / "5.h5").grids[4].values,
-            ReadShapeSet(folder / "9.h5").grids[4].values);
-  // The networks alone, float16: sampled alike but for rounding, and good to begin with.
-  ASSERT_EQ(Antigrasp("generator " + dir + "whole --out " + dir + "small.pt").code, 0);
-  EXPECT_LT(fs::file_size(folder / "small.pt"), fs::file_size(folder / "whole/checkpoint.pt") / 4);
-  ASSERT_EQ(Antigrasp("sample " + dir + "small.pt --count 5 --seed 7 --out " + dir + "s.h5").code,
-            0);
-  const ShapeSet exact = ReadShapeSet(folder / "5.h5"), rounded = ReadShapeSet(folder / "s.h5");
-  for (std::size_t i = 0; i < exact.grids[4].values.size(); ++i) {
-    ASSERT_NEAR(exact.grids[4].values[i], rounded.grids[4].values[i], 5e-3) << i;
-  }
-  // The same without batch normalisation, and good to train on.
-  ASSERT_EQ(
-      Antigrasp("generator " + dir + "whole --fold-batch-norm --out " + dir + "folded.pt").code, 0);
-  ASSERT_EQ(Antigrasp("sample " + dir + "folded.pt --count 5 --seed 7 --out " + dir + "f.h5").code,
-            0);
-  const ShapeSet folded = ReadShapeSet(folder / "f.h5");
-  for (std::size_t i = 0; i < exact.grids[4].values.size(); ++i) {
-    ASSERT_NEAR(exact.grids[4].values[i], folded.grids[4].values[i], 1e-2) << i;
-  }
-  const Outcome on = Antigrasp("train " + kSmoke + " --from " + dir + "folded.pt --fine-tune " +
-                               "--threads 2 --set cem.episodes=0 --out " + dir + "on");
-  EXPECT_EQ(on.code, 0) << on.text;
-  ExpectRefused("generator " + dir + "folded.pt --fold-batch-norm --out " + dir + "x.pt",
-                "batch_norm = false");
-  EXPECT_FALSE(fs::exists(folder / "x.pt"));
-  const Outcome latent = Antigrasp("train " + kSmoke + " --from " + dir +
-                                   "small.pt --mode latent --threads 2 --out " + dir + "latent");
-  EXPECT_EQ(latent.code, 0) << latent.text;
-  ExpectRefused("sample nobody-made-this --out " + dir + "x.h5", "no such networks");
-  EXPECT_EQ(Antigrasp("remesh " + dir + "5.h5 --out " + dir + "meshes").code, 0);
-  EXPECT_TRUE(fs::exists(folder / "meshes/remesh.csv"));
-  for (const char* file : {"whole", "5.h5", "whole/episode_1/checkpoint.pt", "small.pt"}) {
-    const Outcome info = Antigrasp("info " + dir + file);
-    EXPECT_EQ(info.code, 0) << info.text;
-    EXPECT_NE(info.text.find("antigrasp"), std::string::npos) << info.text;
+    EXPECT_GE(solids, 14) << name;
   }
 }
 

@@ -1,13 +1,17 @@
 // The command compare: what it prints and writes, limits and refusals.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_reader.h"
+#include "antigrasp/core/format.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/mesh/repair.h"
+#include "antigrasp/similarity/surface_comparison.h"
 #include "tests/app/run_binary.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
@@ -65,6 +69,63 @@ TEST(CompareCli, PrintsATableAndWritesTheSameNumbersAtAnyThreadCount) {
   EXPECT_NEAR(std::stod(measures["size"].reference) - std::stod(measures["size"].samples), 0.06,
               0.02);
   EXPECT_FALSE(measures["nearer_to_training"].samples.empty());
+}
+
+// Boxes of these heights as meshes and as files.
+std::vector<TriangleMesh> WriteBoxes(const fs::path& folder, const std::vector<double>& heights) {
+  fs::create_directory(folder);
+  std::vector<TriangleMesh> boxes;
+  for (const double height : heights) {
+    const fs::path path = folder / (std::to_string(boxes.size()) + ".stl");
+    WriteMesh(path, shapes::Box({1.0, 1.0, height}));
+    boxes.push_back(Repair(ReadMesh(path)).mesh);
+  }
+  return boxes;
+}
+
+TEST(CompareCli, WritesEveryMeasureOfEitherSetUnderItsOwnName) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  // The samples are near-copies of each other, the reference is spread out, and the training set
+  // is nearer to the samples.
+  const auto a = WriteBoxes(folder / "a", {1.0, 1.01, 1.5}),
+             b = WriteBoxes(folder / "b", {1.0, 2.0, 4.0}), t = WriteBoxes(folder / "t", {1.4});
+  folder.Write("b/broken.stl", "no mesh");
+  const Outcome outcome = Antigrasp("compare " + dir + "a " + dir + "b --train " + dir +
+                                    "t --points 300 --seed 5 --out " + dir + "c.csv");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  const SurfaceComparison found = CompareSurfaces(a, b, t, {.points = 300, .seed = 5});
+  auto measures = Measures(folder / "c.csv");
+  const auto expect = [&](const std::string& name, double samples, std::optional<double> other) {
+    EXPECT_EQ(measures[name].samples, FormatDouble(samples)) << name;
+    EXPECT_EQ(measures[name].reference, other ? FormatDouble(*other) : "") << name;
+    EXPECT_NE(samples, other.value_or(-1.0)) << name << " tells nothing apart";
+  };
+  EXPECT_EQ(measures["shapes"].samples, "3");
+  EXPECT_EQ(measures["shapes"].reference, "3");
+  expect("left_out", 0, 1);
+  expect("size", found.samples.size, found.reference.size);
+  expect("coverage", found.sets.coverage, std::nullopt);
+  expect("nna", found.sets.nna, std::nullopt);
+  expect("matching", found.sets.matching, std::nullopt);
+  expect("nearest_reference", found.sets.to_reference, found.sets.within_reference);
+  expect("floor", found.samples.floor, found.reference.floor);
+  expect("near_duplicates", found.spread.samples.duplicates, found.spread.reference.duplicates);
+  expect("mean_distance", found.spread.samples.mean_distance, found.spread.reference.mean_distance);
+  expect("diversity", found.spread.diversity, std::nullopt);
+  expect("vendi", found.samples.vendi, found.reference.vendi);
+  EXPECT_EQ(measures["roughness"].samples, FormatDouble(found.samples.roughness));
+  EXPECT_EQ(measures["roughness"].reference, FormatDouble(found.reference.roughness));
+  ASSERT_TRUE(found.memorisation);
+  expect("nearest_training", found.memorisation->samples, found.memorisation->reference);
+  expect("nearer_to_training", found.memorisation->nearer, std::nullopt);
+  EXPECT_EQ(measures.size(), 15U);
+  // Diagonals by hand: the files hold single precision.
+  const auto mean = [](double x, double y, double z) {
+    return (std::sqrt(2 + x * x) + std::sqrt(2 + y * y) + std::sqrt(2 + z * z)) / 3.0;
+  };
+  EXPECT_NEAR(found.samples.size, mean(1.0, 1.01, 1.5), 1e-6);
+  EXPECT_NEAR(found.reference.size, mean(1.0, 2.0, 4.0), 1e-6);
 }
 
 TEST(CompareCli, TakesAsManyShapesOfBothSetsAsAskedFor) {

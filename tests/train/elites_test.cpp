@@ -34,6 +34,16 @@ TEST(RandomOrder, MakesTheLeastOfThemAUniformDrawOfValidObjects) {
   for (const std::size_t i : {0, 2, 3, 5, 6}) EXPECT_NEAR(counts[i], 1200, 140) << i;
 }
 
+TEST(RandomOrder, OfAnObjectDoesNotDependOnWhichOthersWereRejected) {
+  RngStream whole(1, "control", 1), rejected(1, "control", 1), other(1, "control", 2);
+  const std::vector<double> order = RandomOrder({0.1, 0.2, 0.3}, &whole);
+  const std::vector<double> after = RandomOrder({kNaN, 0.9, 0.3}, &rejected);
+  EXPECT_TRUE(std::isnan(after[0]));
+  EXPECT_EQ(after[1], order[1]);
+  EXPECT_EQ(after[2], order[2]);
+  EXPECT_NE(RandomOrder({0.1, 0.2, 0.3}, &other), order);
+}
+
 TEST(LeastGraspableByCell, SharesTheElitesOutByWeightAndTakesTheLeastOfEachCell) {
   const std::vector<double> values = {0.1, 0.2, 0.3, 0.9, 0.8, 0.7};
   const Indices cell = {0, 0, 0, 1, 1, 1};
@@ -56,6 +66,16 @@ TEST(LeastGraspableByCell, GivesSharesThatDoNotDivideToTheLargestRemainders) {
   // 5 x (0.2, 0.3, 0.5) = (1, 1.5, 2.5): one each of the remainder would be six.
   const SharedElites shared = LeastGraspableByCell(values, cell, {2.0, 3.0, 5.0}, 5);
   EXPECT_EQ(shared.elites, (Indices{0, 4, 5, 8, 9}));
+}
+
+TEST(LeastGraspableByCell, RanksTheRemaindersAndNotTheShares) {
+  const std::vector<double> values(9, 0.5);
+  const Indices cell = {0, 0, 0, 1, 1, 1, 2, 2, 2};
+  // 4 x (1, 2, 4) / 7 = (0.57, 1.14, 2.29): the one that is left goes to the smallest cell.
+  EXPECT_EQ(LeastGraspableByCell(values, cell, {1.0, 2.0, 4.0}, 4).elites, (Indices{0, 3, 6, 7}));
+  // 5 x (1, 2, 4) / 7 = (0.71, 1.43, 2.86): two are left, for the last cell and the first.
+  EXPECT_EQ(LeastGraspableByCell(values, cell, {1.0, 2.0, 4.0}, 5).elites,
+            (Indices{0, 3, 6, 7, 8}));
 }
 
 TEST(LeastGraspableByCell, WithOneCellIsTheRuleOfThePaper) {

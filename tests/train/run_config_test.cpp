@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "antigrasp/core/error.h"
 
@@ -21,6 +24,96 @@ TEST(RunConfig, ReadsItsOwnDump) {
   EXPECT_EQ(ToToml(FromToml(toml, "x")), toml);
   EXPECT_NE(toml.find("[gripper]"), std::string::npos);
   EXPECT_EQ(FromToml(toml, "x").metric.gripper.finger_width, 0.015);
+}
+
+// Every key of run, prior and cem but the switches, each with a value of its own.
+constexpr const char* kOwnValues = R"(
+[run]
+seed = 101
+threads = 3
+torch_threads = 4
+device = "cuda:1"
+stl_count = 5
+stl_size_mm = 61.5
+start = "networks"
+[prior]
+file = "set.h5"
+kind = "prisms"
+count = 17
+seed = 102
+[cem]
+mode = "latent"
+episodes = 6
+prior_iterations = 7
+iterations = 8
+samples = 90
+keep = 9
+variant = "stratified"
+cells = 11
+step = 0.25
+select = "random"
+prior_fraction = 0.75
+prior_scored = 13
+compared = 14
+checkpoint_every = 15
+)";
+
+TEST(RunConfig, BindsEveryKeyToItsOwnField) {
+  const RunConfig config = FromToml(kOwnValues, "x");
+  EXPECT_EQ(config.seed, 101U);
+  EXPECT_EQ(config.threads, 3);
+  EXPECT_EQ(config.torch_threads, 4);
+  EXPECT_EQ(config.device, "cuda:1");
+  EXPECT_EQ(config.stl_count, 5);
+  EXPECT_EQ(config.stl_size_mm, 61.5);
+  EXPECT_EQ(config.start, "networks");
+  EXPECT_EQ(config.prior_file, "set.h5");
+  EXPECT_EQ(config.prior.kind, "prisms");
+  EXPECT_EQ(config.prior.count, 17);
+  EXPECT_EQ(config.prior.seed, 102U);
+  EXPECT_EQ(config.cem.mode, "latent");
+  EXPECT_EQ(config.cem.episodes, 6);
+  EXPECT_EQ(config.cem.prior_iterations, 7);
+  EXPECT_EQ(config.cem.iterations, 8);
+  EXPECT_EQ(config.cem.samples, 90);
+  EXPECT_EQ(config.cem.keep, 9);
+  EXPECT_EQ(config.cem.variant, "stratified");
+  EXPECT_EQ(config.cem.cells, 11);
+  EXPECT_EQ(config.cem.step, 0.25);
+  EXPECT_EQ(config.cem.select, "random");
+  EXPECT_EQ(config.cem.prior_fraction, 0.75);
+  EXPECT_EQ(config.cem.prior_scored, 13);
+  EXPECT_EQ(config.cem.compared, 14);
+  EXPECT_EQ(config.cem.checkpoint_every, 15);
+  // No key was forgotten here: what is not a switch differs from its default.
+  RunConfig read = config, defaults;
+  OptionTable ours, theirs;
+  Bind(&ours, &read);
+  Bind(&theirs, &defaults);
+  for (std::size_t i = 0; i < ours.options().size(); ++i) {
+    const Option& option = ours.options()[i];
+    const std::string section = option.key.substr(0, option.key.find('.'));
+    const bool asked = section == "run" || section == "prior" || section == "cem";
+    if (!asked || std::holds_alternative<bool*>(option.target)) continue;
+    EXPECT_NE(ValueText(option), ValueText(theirs.options()[i])) << option.key;
+  }
+}
+
+TEST(RunConfig, BindsEverySwitchToItsOwnField) {
+  const std::vector<std::pair<std::string, bool (*)(const RunConfig&)>> switches = {
+      {"run.fine_tune", [](const RunConfig& c) { return c.fine_tune; }},
+      {"cem.restart", [](const RunConfig& c) { return c.cem.restart; }},
+      {"cem.redistance", [](const RunConfig& c) { return c.cem.redistance; }},
+      {"cem.check_self_intersection",
+       [](const RunConfig& c) { return c.cem.check_self_intersection; }},
+      {"cem.control", [](const RunConfig& c) { return c.cem.control; }}};
+  const RunConfig defaults;
+  for (const auto& [key, of] : switches) {
+    const RunConfig turned = FromToml(key + (of(defaults) ? " = false" : " = true"), "x");
+    for (const auto& [other, value] : switches) {
+      EXPECT_EQ(value(turned) != value(defaults), other == key) << key << " and " << other;
+    }
+  }
 }
 
 TEST(RunConfig, ForSamplingKeysOfAnotherVersionAreLeftOutButNotThoseOfTheNetworks) {

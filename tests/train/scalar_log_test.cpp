@@ -45,6 +45,25 @@ TEST(ScalarLog, FramesAreTensorBoardsByteForByte) {
             "brain.Event:2");
 }
 
+TEST(ScalarLog, EventsAreTensorBoardsByteForByte) {
+  // Event: wall_time (field 1, 64 bit), step (2, varint: 300 = ac 02), summary (5) of a value (1)
+  // with tag (1) and simple_value (2, float: 1.5 = 3fc00000).
+  const TempFolder folder;
+  const auto path = folder / "events";
+  ScalarLog log(path, 0);
+  const std::size_t before = ReadFile(path).size();
+  log.Add(300, {{"ab", 1.5}});
+  const std::string record = ReadFile(path).substr(before);
+  const std::string body(
+      "\x10\xac\x02\x2a\x0b\x0a\x09\x0a\x02"
+      "ab\x15\0\0\xc0\x3f",
+      16);
+  ASSERT_EQ(record.size(), 8U + 4 + 9 + body.size() + 4);
+  EXPECT_EQ(record.substr(0, 8), std::string("\x19\0\0\0\0\0\0\0", 8));
+  EXPECT_EQ(record[12], '\x09');
+  EXPECT_EQ(record.substr(12 + 9, body.size()), body);
+}
+
 TEST(ScalarLog, DropsWhatCameAfterTheStateItGoesOnFromAndATornRecord) {
   const TempFolder folder;
   const auto path = folder / "events";

@@ -4,10 +4,13 @@
 #include <torch/types.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "antigrasp/core/rng.h"
 #include "antigrasp/sdf/remesh.h"
 #include "antigrasp/sdf/sdf_grid.h"
+#include "antigrasp/train/elites.h"
 
 namespace antigrasp {
 namespace {
@@ -102,22 +105,111 @@ TEST(EliteSelector, MixesInTheAskedShareOfThePriorSet) {
 
 TEST(EliteSelector, RedistancesElitesToTheirMeshes) {
   RunConfig config;
-  config.cem.samples = config.cem.keep = 1;
+  config.cem.samples = 2;
+  config.cem.keep = 1;
   config.cem.redistance = true;
   const SdfGrid ball = Ball(0.3);
   ScoredStage scored;
   SdfGrid steep = ball;  // the same surface, values four times too large
   for (float& value : steep.values) value *= 4.0F;
-  scored.values = ValuesOf(steep);
-  scored.objects = {Remesh(steep)};
-  scored.graspabilities = {0.001};
+  scored.values = torch::cat({ValuesOf(Ball(0.2)), ValuesOf(steep)});
+  scored.objects = {Remesh(Ball(0.2)), Remesh(steep)};
+  scored.graspabilities = {0.002, 0.001};
   const torch::Tensor prior = ValuesOf(ball);
   const EliteSelector selector(config, prior);
   const Selection selection = selector.Select(scored, 0);
   const torch::Tensor learnt = selector.TrainingSet(scored, selection);
+  EXPECT_EQ(learnt.size(0), 1);
   EXPECT_EQ(learnt.scalar_type(), torch::kHalf);
   EXPECT_LT((learnt - prior).abs().max().item<double>(), 0.03);  // of 0.1: 0.003 of the cube
-  EXPECT_GT((scored.values - prior).abs().max().item<double>(), 0.5);
+  EXPECT_GT((scored.values[1] - prior[0]).abs().max().item<double>(), 0.5);
+}
+
+TEST(EliteSelector, TrainsOnTheElitesOfTheSamplesAndThenTheReplayedOfThePriorSet) {
+  const RunConfig config = Config("paper");
+  const torch::Tensor prior = Prior();
+  const ScoredStage stage = Stage();
+  const torch::Tensor set = EliteSelector(config, prior).TrainingSet(stage, {{1, 21}, {0, 37, 5}});
+  ASSERT_EQ(set.size(0), 5);
+  EXPECT_TRUE(torch::equal(set[0], stage.values[1].to(torch::kHalf)));
+  EXPECT_TRUE(torch::equal(set[1], stage.values[21].to(torch::kHalf)));
+  EXPECT_TRUE(torch::equal(set[2], prior[0]));
+  EXPECT_TRUE(torch::equal(set[3], prior[37]));
+  EXPECT_TRUE(torch::equal(set[4], prior[5]));
+}
+
+using Indices = std::vector<std::int64_t>;
+
+// `count` of `from`, as a stream draws them: the lowest of one uniform number each.
+Indices Drawn(const Indices& from, std::int64_t count, RngStream rng) {
+  Indices drawn;
+  for (const std::int64_t i :
+       LeastGraspable(RandomOrder(std::vector<double>(from.size()), &rng), count)) {
+    drawn.push_back(from[static_cast<std::size_t>(i)]);
+  }
+  return drawn;
+}
+
+Indices UpTo(std::int64_t count) {
+  Indices indices;
+  for (std::int64_t i = 0; i < count; ++i) indices.push_back(i);
+  return indices;
+}
+
+// The prior's 40 shapes in a row, and samples of which none is usable.
+torch::Tensor Row() { return torch::arange(40.0).reshape({40, 1, 1, 1, 1}).to(torch::kHalf); }
+
+ScoredStage Unusable() {
+  ScoredStage scored;
+  scored.values = torch::zeros({3, 1, 1, 1, 1});
+  scored.graspabilities.assign(3, std::nan(""));
+  return scored;
+}
+
+TEST(EliteSelector, CutsThePriorSetIntoCellsAroundShapesOfAStreamOfTheirOwn) {
+  RunConfig config = Config("stratified");
+  config.seed = 7;
+  config.cem.cells = 2;
+  config.cem.keep = 40;  // the share of a cell is all its shapes
+  // In a row the cells meet halfway between the two chosen shapes; on a tie the first has it.
+  const Indices centres = Drawn(UpTo(40), 2, RngStream(7, "cells"));
+  Indices expected = UpTo(40);
+  EXPECT_EQ(EliteSelector(config, Row()).Select(Unusable(), 1).replayed, expected);
+  config.cem.keep = 20;
+  const std::int64_t first = (centres[0] + centres[1]) / 2 + 1, half = (first + 1) / 2;
+  ASSERT_GT(half, 1);
+  ASSERT_GT(20 - half, 1);
+  const Indices all = UpTo(40), in_first(all.begin(), all.begin() + first),
+                in_second(all.begin() + first, all.end());
+  for (const std::uint64_t episode : {1, 2}) {
+    expected = Drawn(in_first, half, RngStream(7, "stand-in", episode, 0));
+    const Indices others = Drawn(in_second, 20 - half, RngStream(7, "stand-in", episode, 1));
+    expected.insert(expected.end(), others.begin(), others.end());
+    EXPECT_EQ(EliteSelector(config, Row()).Select(Unusable(), static_cast<int>(episode)).replayed,
+              expected)
+        << episode;
+  }
+}
+
+TEST(EliteSelector, ReplaysAShareOfTheElitesThatThereAreFromAStreamOfItsOwn) {
+  RunConfig config = Config("paper");
+  config.seed = 7;
+  config.cem.prior_fraction = 0.75;
+  ScoredStage stage = Stage();
+  for (std::size_t i = 4; i < stage.graspabilities.size(); ++i) {
+    stage.graspabilities[i] = std::nan("");
+  }
+  const Selection selection = EliteSelector(config, Prior()).Select(stage, 2);
+  EXPECT_EQ(selection.elites, UpTo(4));
+  EXPECT_EQ(selection.replayed, Drawn(UpTo(40), 3, RngStream(7, "replay", 2)));
+}
+
+TEST(EliteSelector, OfTheControlDrawsElitesFromAStreamOfItsOwn) {
+  RunConfig config = Config("paper");
+  config.seed = 7;
+  config.cem.select = "random";
+  const Selection selection = EliteSelector(config, Prior()).Select(Stage(), 2);
+  EXPECT_EQ(selection.elites, Drawn(UpTo(24), 8, RngStream(7, "control", 2)));
 }
 
 TEST(EliteSelector, OfTheControlDrawsOtherElitesInEveryEpisode) {

@@ -38,6 +38,7 @@ TEST(StageSamples, AreThoseThatTheRunScoredInAnyOrderAndForAnyNumberOfThreads) {
     RunConfig config = shapes::Tiny();
     config.cem.mode = mode;
     config.cem.episodes = 1;
+    config.cem.prior_scored = 0;  // all
     const RunFolder run{folder / mode};
     StartRun(config, run.root, &observer);
     for (const int stage : {-1, 0, 1}) {
@@ -64,7 +65,7 @@ TEST(StageSamples, NameTheFileThatIsMissingAndTheShapeThatIsNotThere) {
   const RunFolder run{folder / "run"};
   StartRun(config, run.root, &observer);
   EXPECT_EQ(StageValues(run, config, 3, {}).size(0), 0);
-  EXPECT_THROW(StageValues(run, config, -1, {24}), InputError);
+  EXPECT_THROW(StageValues(run, config, -1, {8}), InputError);
   EXPECT_THROW(StageValues(run, config, 0, {-1}), InputError);
   try {
     StageValues(run, config, 3, {0});

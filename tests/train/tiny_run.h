@@ -1,28 +1,30 @@
 #pragma once
 
+#include <string>
+
 #include "antigrasp/core/error.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_observer.h"
 
 namespace antigrasp::shapes {
 
-// Small enough for a few seconds; what is learnt does not matter here.
+// Small enough for a second; what is learnt does not matter here.
 inline RunConfig Tiny() {
   RunConfig config;
   config.threads = 2;
   config.torch_threads = 1;  // tests run side by side
-  config.prior.count = 24;
+  config.prior.count = 8;
   config.model.width = 4;
   config.model.latent = 8;
-  config.gan.batch = 8;
-  config.gan.learning_rate_g = config.gan.learning_rate_d = 2e-3;
+  config.gan.batch = 4;
+  config.gan.learning_rate_g = config.gan.learning_rate_d = 4e-3;
   config.cem.episodes = 2;
-  config.cem.prior_iterations = 30;
-  config.cem.iterations = 6;
-  config.cem.samples = 12;
-  config.cem.keep = 4;
+  config.cem.prior_iterations = 20;
+  config.cem.iterations = 4;
+  config.cem.samples = 8;
+  config.cem.keep = 3;
   config.cem.prior_fraction = 0.5;
-  config.cem.prior_scored = 8;
+  config.cem.prior_scored = 4;
   config.cem.checkpoint_every = 4;
   config.metric.num_grasps = 10;
   config.metric.num_draws = 4;
@@ -35,7 +37,8 @@ inline RunConfig Tiny() {
 class StoppingObserver : public RunObserver {
  public:
   explicit StoppingObserver(int reports = -1) : left_(reports) {}
-  ProgressFn Phase(const std::string&) override {
+  ProgressFn Phase(const std::string& label) override {
+    phase_ = label;
     return [this](std::int64_t, std::int64_t) {
       if (left_ >= 0 && left_-- == 0) {
         left_ = 0;
@@ -45,9 +48,11 @@ class StoppingObserver : public RunObserver {
   }
   void Detail(const std::string&) override {}
   bool StopRequested() const override { return left_ == 0; }
+  const std::string& phase() const { return phase_; }  // the last one that began
 
  private:
   int left_;
+  std::string phase_;
 };
 
 }  // namespace antigrasp::shapes
