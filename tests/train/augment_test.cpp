@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <torch/types.h>
 
+#include <array>
+#include <map>
 #include <set>
 
 #include "antigrasp/models/folding.h"
@@ -66,6 +68,55 @@ TEST(Augment, PassesTheGradientToWhereTheShapeCameFrom) {
   const std::vector<std::int64_t> to = PlaceOf(moved[0]);
   EXPECT_EQ(grid.grad()[0][0][10][12][14].item<float>(),
             weights[0][0][to[0]][to[1]][to[2]].item<float>());
+}
+
+// Three grids, each node's own number along z, along y and along x.
+torch::Tensor Rulers() {
+  const torch::Tensor axis = torch::arange(32, torch::kFloat);
+  return torch::stack({axis.view({32, 1, 1}).expand({32, 32, 32}),
+                       axis.view({32, 1}).expand({32, 32, 32}), axis.expand({32, 32, 32})})
+      .unsqueeze(1)
+      .contiguous();
+}
+
+TEST(Augment, ShiftsEachAxisByItselfByUpToThreeAndRepeatsTheBorder) {
+  RngStream rng(1, "augment");
+  std::array<std::map<std::int64_t, int>, 3> shifts;
+  std::set<std::vector<std::int64_t>> together;
+  for (int draw = 0; draw < 140; ++draw) {
+    const torch::Tensor moved = Unfold(Augment(Fold(Rulers()), "shifts", &rng));
+    std::vector<std::int64_t> shift;
+    for (std::int64_t axis = 0; axis < 3; ++axis) {
+      shift.push_back(moved[axis][0][16][16][16].item<std::int64_t>() - 16);
+      EXPECT_TRUE(torch::equal(moved[axis], (Rulers()[axis] + shift.back()).clamp(0, 31)));
+      ++shifts[axis][shift.back()];
+    }
+    together.insert(shift);
+  }
+  for (const auto& times : shifts) {  // 20 of each expected
+    ASSERT_EQ(times.size(), 7U);
+    EXPECT_EQ(times.begin()->first, -3);
+    EXPECT_EQ(times.rbegin()->first, 3);
+    for (const auto& [shift, count] : times) EXPECT_NEAR(count, 20, 12) << shift;
+  }
+  EXPECT_GT(together.size(), 100U);  // of 343
+}
+
+TEST(Augment, MirrorsEachAxisHalfTheTime) {
+  RngStream rng(1, "augment");
+  std::map<std::vector<bool>, int> times;
+  for (int draw = 0; draw < 160; ++draw) {
+    const torch::Tensor moved = Unfold(Augment(Fold(Rulers()), "flips", &rng));
+    std::vector<bool> mirrored;
+    for (std::int64_t axis = 0; axis < 3; ++axis) {
+      mirrored.push_back(moved[axis][0][0][0][0].item<float>() == 31.0F);
+      EXPECT_TRUE(
+          torch::equal(moved[axis], mirrored.back() ? 31 - Rulers()[axis] : Rulers()[axis]));
+    }
+    ++times[mirrored];
+  }
+  EXPECT_EQ(times.size(), 8U);
+  for (const auto& [mirrored, count] : times) EXPECT_NEAR(count, 20, 12);
 }
 
 }  // namespace

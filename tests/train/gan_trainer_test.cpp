@@ -281,15 +281,5 @@ TEST(GanTrainer, RefusesStepsBeyondTheEpisodeAndEmptySets) {
   EXPECT_THROW(trainer.Step(Spheres(4)), std::logic_error);
 }
 
-TEST(GanOptions, RefuseValuesOutOfRange) {
-  GanOptions options;
-  OptionTable table;
-  Bind(&table, &options);
-  table.ApplyOverride("gan.batch=16");
-  EXPECT_EQ(options.batch, 16);
-  EXPECT_THROW(table.ApplyOverride("gan.beta2=1"), InputError);
-  EXPECT_THROW(table.ApplyOverride("gan.batch=1"), InputError);
-}
-
 }  // namespace
 }  // namespace antigrasp

@@ -4,6 +4,7 @@
 #include <torch/types.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "antigrasp/models/random_tensor.h"
@@ -69,6 +70,35 @@ TEST(AroundElites, MixesInTheAskedShareOfFreshDraws) {
   const torch::Tensor z = Draws(AroundElites(elites, 0.1, 0.25), 4000).select(1, 0);
   EXPECT_NEAR((z < 25.0).sum().item<double>(), 800.0, 90.0);  // a fifth
   EXPECT_NEAR(AroundElites(elites, 0.1, 0.25).weights.sum().item<double>(), 1.0, 1e-5);
+}
+
+TEST(LatentMixture, DrawsTheNormalsFirstThenTheComponent) {
+  LatentMixture mixture;
+  mixture.weights = torch::tensor({0.25F, 0.25F, 0.5F});
+  mixture.means = torch::tensor({{1.0F, 2.0F}, {10.0F, 20.0F}, {100.0F, 200.0F}});
+  mixture.deviations = torch::tensor({{0.1F, 0.2F}, {0.3F, 0.4F}, {0.5F, 0.6F}});
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    RngStream rng(3, "z", i), same(3, "z", i);
+    const torch::Tensor normal = NormalTensor({2}, 1.0, &same);
+    const double u = same.Uniform();
+    const std::int64_t component = u < 0.25 ? 0 : u < 0.5 ? 1 : 2;
+    EXPECT_TRUE(torch::equal(DrawLatent(mixture, &rng),
+                             mixture.means[component] + mixture.deviations[component] * normal));
+  }
+}
+
+TEST(AroundElites, HasAComponentForEachEliteAndOneFresh) {
+  const torch::Tensor elites = torch::tensor({{1.0F, 2.0F}, {3.0F, -4.0F}});
+  const LatentMixture with = AroundElites(elites, 0.6, 0.25);
+  // sqrt(1 - 0.6^2) = 0.8; the fresh one has 0.25 of the weight of the two together: 1/5.
+  EXPECT_TRUE(torch::allclose(with.weights, torch::tensor({0.4F, 0.4F, 0.2F})));
+  EXPECT_TRUE(
+      torch::allclose(with.means, torch::tensor({{0.8F, 1.6F}, {2.4F, -3.2F}, {0.0F, 0.0F}})));
+  EXPECT_TRUE(
+      torch::allclose(with.deviations, torch::tensor({{0.6F, 0.6F}, {0.6F, 0.6F}, {1.0F, 1.0F}})));
+  EXPECT_TRUE(torch::allclose(AroundElites(elites, 0.6, 0.0).weights, torch::tensor({0.5F, 0.5F})));
+  EXPECT_THROW(AroundElites(elites, 0.0, 0.0), std::logic_error);
+  EXPECT_THROW(AroundElites(elites, 1.1, 0.0), std::logic_error);
 }
 
 }  // namespace

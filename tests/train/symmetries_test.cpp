@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <torch/types.h>
 
+#include <map>
 #include <set>
 
 namespace antigrasp {
@@ -52,6 +53,39 @@ TEST(Symmetries, EveryViewHoldsTheSameValues) {
   const auto sorted = std::get<0>(Numbered(1).flatten().sort());
   for (std::int64_t i = 0; i < 20; ++i) {
     EXPECT_TRUE(torch::equal(std::get<0>(shown[i].flatten().sort()), sorted));
+  }
+}
+
+// Numbered(1) with x and y exchanged or not, then mirrored along the axes named: what may be shown.
+std::vector<torch::Tensor> Symmetries(bool upside_down) {
+  std::vector<torch::Tensor> all;
+  const torch::Tensor axis = torch::arange(4, torch::kFloat);
+  for (int i = 0; i < (upside_down ? 16 : 8); ++i) {
+    const torch::Tensor x = (i & 1) != 0 ? 3 - axis : axis, y = (i & 2) != 0 ? 3 - axis : axis;
+    const torch::Tensor z = (i & 8) != 0 ? 3 - axis : axis;
+    const double along_x = (i & 4) != 0 ? 10.0 : 1.0;
+    all.push_back((along_x * x + (10.0 / along_x) * y.view({4, 1}) + 100 * z.view({4, 1, 1}))
+                      .view({1, 4, 4, 4}));
+  }
+  return all;
+}
+
+TEST(Symmetries, AreThoseThatKeepTheZAxisEachAsOften) {
+  for (const bool upside_down : {false, true}) {
+    RngStream rng(4, "symmetries");
+    const std::vector<torch::Tensor> all = Symmetries(upside_down);
+    const torch::Tensor shown =
+        RandomSymmetries(Numbered(800), upside_down ? "around_z_and_up" : "around_z", &rng);
+    std::map<std::size_t, double> times;
+    for (std::int64_t i = 0; i < shown.size(0); ++i) {
+      std::size_t k = 0;
+      while (k < all.size() && !torch::equal(shown[i], all[k])) ++k;
+      ASSERT_LT(k, all.size()) << "not one of them";
+      ++times[k];
+    }
+    const double share = 800.0 / static_cast<double>(all.size());
+    EXPECT_EQ(times.size(), all.size());
+    for (const auto& [k, count] : times) EXPECT_NEAR(count, share, 0.5 * share) << k;
   }
 }
 

@@ -1,0 +1,49 @@
+#include "antigrasp/train/gan_options.h"
+
+#include <gtest/gtest.h>
+
+#include "antigrasp/core/error.h"
+
+namespace antigrasp {
+namespace {
+
+TEST(GanOptions, EachNameSetsItsOwnField) {
+  GanOptions options;
+  OptionTable table;
+  Bind(&table, &options);
+  for (const char* setting :
+       {"gan.batch=16", "gan.discriminator_steps=7", "gan.learning_rate_g=0.01",
+        "gan.learning_rate_d=0.02", "gan.later_rate=0.03", "gan.beta1=0.04", "gan.beta2=0.05",
+        "gan.lr_decay_fraction=0.06", "gan.symmetries=\"around_z\"", "gan.augment=\"flips\"",
+        "gan.ema=0.07"}) {
+    table.ApplyOverride(setting);
+  }
+  EXPECT_EQ(options.batch, 16);
+  EXPECT_EQ(options.discriminator_steps, 7);
+  EXPECT_EQ(options.learning_rate_g, 0.01);
+  EXPECT_EQ(options.learning_rate_d, 0.02);
+  EXPECT_EQ(options.later_rate, 0.03);
+  EXPECT_EQ(options.beta1, 0.04);
+  EXPECT_EQ(options.beta2, 0.05);
+  EXPECT_EQ(options.lr_decay_fraction, 0.06);
+  EXPECT_EQ(options.symmetries, "around_z");
+  EXPECT_EQ(options.augment, "flips");
+  EXPECT_EQ(options.ema, 0.07);
+  EXPECT_EQ(table.options().size(), 11U);
+}
+
+TEST(GanOptions, RefuseValuesOutOfRange) {
+  GanOptions options;
+  OptionTable table;
+  Bind(&table, &options);
+  for (const char* setting :
+       {"gan.batch=1", "gan.discriminator_steps=0", "gan.learning_rate_g=1.01",
+        "gan.learning_rate_d=-0.01", "gan.later_rate=1.01", "gan.beta1=1", "gan.beta2=1",
+        "gan.lr_decay_fraction=1.01", "gan.symmetries=\"around_x\"", "gan.augment=\"all\"",
+        "gan.ema=1"}) {
+    EXPECT_THROW(table.ApplyOverride(setting), InputError) << setting;
+  }
+}
+
+}  // namespace
+}  // namespace antigrasp
