@@ -55,6 +55,46 @@ TEST(Checkpoint, ReadsBackWhatWasWritten) {
   EXPECT_TRUE(torch::equal(weight, torch::ones({2, 3})));
 }
 
+TEST(Checkpoint, EntriesOfTheArchiveHaveTheirDocumentedNames) {
+  const TempFolder folder;
+  Checkpoint checkpoint = Sample();
+  for (const bool finished : {true, false}) {
+    checkpoint.finished = finished;
+    WriteCheckpoint(folder / "a.pt", checkpoint, SaveTensor);
+    EXPECT_EQ(ReadCheckpoint(folder / "a.pt").finished, finished);
+    torch::serialize::InputArchive archive, networks;
+    archive.load_from((folder / "a.pt").string());
+    const auto value = [&](const char* name) {
+      c10::IValue entry;
+      archive.read(name, entry);
+      return entry;
+    };
+    EXPECT_EQ(value("format").toStringRef(), "antigrasp.checkpoint");
+    EXPECT_EQ(value("version").toInt(), 1);
+    EXPECT_EQ(value("config").toStringRef(), "[run]\nseed = 5\n");
+    EXPECT_EQ(value("statistics").toStringRef(), "stage\n-1\n");
+    EXPECT_EQ(value("finished").toBool(), finished);
+    EXPECT_TRUE(torch::equal(value("shapes").toTensor(), checkpoint.shapes));
+    EXPECT_TRUE(torch::equal(value("losses").toTensor(), checkpoint.losses));
+    ASSERT_TRUE(archive.try_read("networks", networks));
+    torch::Tensor weight;
+    networks.read("weight", weight, true);
+    EXPECT_TRUE(torch::equal(weight, torch::ones({2, 3})));
+  }
+}
+
+TEST(Checkpoint, RefusesAnotherFormatOfTheSameVersion) {
+  const TempFolder folder;
+  torch::serialize::OutputArchive other;
+  other.write("format", c10::IValue(std::string("antigrasp.other")));
+  other.write("version", c10::IValue(std::int64_t{1}));
+  other.save_to((folder / "other.pt").string());
+  EXPECT_NE(MessageOf(folder / "other.pt").find("another kind of archive"), std::string::npos);
+  EXPECT_FALSE(IsCheckpoint(folder / "other.pt"));
+  WriteCheckpoint(folder / "a.pt", Sample(), SaveTensor);
+  EXPECT_TRUE(IsCheckpoint(folder / "a.pt"));
+}
+
 TEST(Checkpoint, EqualStatesGiveEqualBytesUnderAnyName) {
   const TempFolder folder;
   const Checkpoint checkpoint = Sample();

@@ -1,0 +1,62 @@
+#include "antigrasp/checkpoints/pretrained.h"
+
+#include <gtest/gtest.h>
+#include <torch/serialize/archive.h>
+#include <torch/types.h>
+
+#include <filesystem>
+
+#include "antigrasp/checkpoints/checkpoint.h"
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
+#include "tests/support/temp_folder.h"
+
+namespace antigrasp {
+namespace {
+
+const std::vector<std::string> kNames = {"bottles-adversarial",   "bottles-prior",
+                                         "cylinders-adversarial", "cylinders-prior",
+                                         "prisms-adversarial",    "prisms-prior"};
+
+TEST(Pretrained, NamesAreThoseOfTheFilesInOrder) { EXPECT_EQ(PretrainedNames(), kNames); }
+
+TEST(Pretrained, EachNameIsItsOwnFileOfHalfPrecisionNetworks) {
+  for (const std::string& name : kNames) {
+    const std::filesystem::path file = FindNetworks(name);
+    EXPECT_EQ(file.filename(), name + ".pt");
+    EXPECT_EQ(file.parent_path().filename(), "pretrained");
+    const Checkpoint checkpoint = ReadCheckpoint(file);
+    const std::string shapes = name.substr(0, name.find('-'));
+    EXPECT_NE(checkpoint.config.find(shapes), std::string::npos) << name;
+    ReadNetworks(file, [&](torch::serialize::InputArchive* archive) {
+      torch::Tensor weight, progress;
+      archive->read("average/last_weight", weight, true);
+      archive->read("progress", progress, true);
+      EXPECT_EQ(weight.scalar_type(), torch::kHalf) << name;
+      EXPECT_EQ(progress.scalar_type(), torch::kLong) << name;
+      // Episode 0 is trained on the set itself; later ones on what is hard to grasp.
+      EXPECT_EQ(progress[0].item<std::int64_t>() > 0, name.ends_with("adversarial")) << name;
+    });
+  }
+}
+
+TEST(Pretrained, APathGoesBeforeANameAndAFolderIsARun) {
+  const shapes::TempFolder folder;
+  EXPECT_EQ(FindNetworks(folder.path().string()), folder.path() / "checkpoint.pt");
+  WriteFileAtomic(folder / "bottles-prior", "mine");
+  EXPECT_EQ(FindNetworks((folder / "bottles-prior").string()), folder / "bottles-prior");
+}
+
+TEST(Pretrained, AnUnknownNameIsRefusedWithThoseThatThereAre) {
+  try {
+    FindNetworks("cups-prior");
+    FAIL() << "found";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("cups-prior"), std::string::npos) << message;
+    EXPECT_NE(message.find("bottles-prior, cylinders-adversarial"), std::string::npos) << message;
+  }
+}
+
+}  // namespace
+}  // namespace antigrasp
