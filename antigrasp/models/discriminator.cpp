@@ -73,7 +73,9 @@ double DiscriminatorImpl::LargestSigma() {
   if (!options_.spectral_norm) return std::numeric_limits<double>::quiet_NaN();
   torch::NoGradGuard no_grad;
   std::vector<torch::Tensor> sigmas;
-  for (SpectralWeight& weight : weights_) sigmas.push_back(weight->Sigma());
+  for (auto* weights : {&weights_, &refine_}) {
+    for (SpectralWeight& weight : *weights) sigmas.push_back(weight->Sigma());
+  }
   return torch::stack(sigmas).max().item<double>();  // one wait for the device
 }
 

@@ -90,6 +90,24 @@ TEST(ResidualBlocks, MayBeTheGeneratorsAlone) {
   EXPECT_EQ(Generator(options)->parameters().size(), 1U + 3 + 2 + 8 + 3 * 3);
 }
 
+TEST(Discriminator, LargestSigmaIsThatOfTheLargestWeightResidualOnesIncluded) {
+  ModelOptions options = Residual();
+  options.spectral_norm = true;
+  Discriminator discriminator(options);
+  for (const std::string name : {"layer1", "layer5", "refine2"}) {
+    const double before = discriminator->LargestSigma();
+    torch::NoGradGuard no_grad;
+    torch::Tensor weight = discriminator->named_parameters()[name + ".weight"];
+    torch::Tensor u = discriminator->named_buffers()[name + ".u"];
+    // One entry, twice as large as what was the largest.
+    weight.zero_();
+    weight.view({weight.size(0), -1})[0][1] = 2.0 * before;
+    u.zero_();
+    u[0] = 1.0;
+    EXPECT_NEAR(discriminator->LargestSigma(), 2.0 * before, 1e-5) << name;
+  }
+}
+
 TEST(Generator, FoldingKeepsTheEpsilonOfSmallVariances) {
   ModelOptions options = Residual();
   options.block = "plain";
