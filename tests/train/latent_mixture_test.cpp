@@ -45,7 +45,7 @@ TEST(LatentMixture, DrawsEachComponentAsOftenAsItsWeight) {
 TEST(AroundElites, OfStandardNormalElitesIsStandardNormalAgain) {
   for (const double step : {0.1, 0.5, 1.0}) {
     const LatentMixture mixture = AroundElites(Cloud(0.0, 1.0, 500, 1), step, 0.0);
-    const torch::Tensor z = Draws(mixture, 4000);
+    const torch::Tensor z = Draws(mixture, 1500);
     EXPECT_LT(z.mean(0).abs().max().item<double>(), 0.15) << step;  // 500 elites: +-0.045
     EXPECT_LT((z.std(0) - 1.0).abs().max().item<double>(), 0.1) << step;
   }
