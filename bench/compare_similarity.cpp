@@ -8,7 +8,7 @@
 #include <limits>
 #include <memory>
 
-#include "antigrasp/similarity/chamfer.h"
+#include "antigrasp/datasets/chamfer.h"
 #include "bench/bench_objects.h"
 #include "bench/compare.h"
 #include "bench/timing.h"

@@ -1,16 +1,26 @@
 # antigrasp_module(core SOURCES a.cpp b.cpp PUBLIC targets... PRIVATE targets...)
-# Makes the static library antigrasp_<name>, alias antigrasp::<name>. The PUBLIC and PRIVATE lists
-# are the dependency rule of docs/architecture.md.
+# Makes the static library antigrasp_<name>, alias antigrasp::<name>. The PUBLIC and PRIVATE lists are the
+# dependency rule of docs/architecture.md, and the compiler holds to it: "antigrasp/<room>/x.h" is found
+# through a folder of links that has this room alone, so a target sees its own room and those it links.
 function(antigrasp_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(antigrasp_${name} STATIC ${ARG_SOURCES})
   add_library(antigrasp::${name} ALIAS antigrasp_${name})
-  target_include_directories(antigrasp_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-                                                      $<INSTALL_INTERFACE:include>)
+  antigrasp_see_own_room(antigrasp_${name})
   target_link_libraries(antigrasp_${name} PUBLIC ${ARG_PUBLIC}
                         PRIVATE $<BUILD_INTERFACE:antigrasp_options> ${ARG_PRIVATE})
   set_target_properties(antigrasp_${name} PROPERTIES EXPORT_NAME ${name})
   target_compile_features(antigrasp_${name} PUBLIC cxx_std_20)
+endfunction()
+
+# Lets the target, and those that link it, include the headers of the folder that calls this.
+function(antigrasp_see_own_room target)
+  file(RELATIVE_PATH room ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  set(root ${PROJECT_BINARY_DIR}/include/${target})
+  cmake_path(GET room PARENT_PATH parent)
+  file(MAKE_DIRECTORY ${root}/antigrasp/${parent})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/antigrasp/${room} SYMBOLIC)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:include>)
 endfunction()
 
 # antigrasp_test(core SOURCES a_test.cpp LIBS antigrasp::core [LABELS slow])

@@ -9,7 +9,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/antigrasp)
 install(TARGETS ${package_targets} EXPORT antigraspTargets COMPONENT quality)
 install(EXPORT antigraspTargets NAMESPACE antigrasp:: DESTINATION ${package_dir} COMPONENT quality)
 foreach(folder IN LISTS ANTIGRASP_PACKAGE)
-  install(DIRECTORY antigrasp/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/antigrasp
+  install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/antigrasp
           COMPONENT quality FILES_MATCHING PATTERN "*.h")
 endforeach()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/antigraspConfig.cmake.in

@@ -1,4 +1,4 @@
-# The page of `antigrasp report` is made by npm of viewer/. ANTIGRASP_HAS_REPORT: whether the command
+# The page of `antigrasp report` is made by npm of report/viewer/. ANTIGRASP_HAS_REPORT: whether the command
 # is built; antigrasp_report_page(VAR): the rules that make the page, for the directory that calls it.
 set(ANTIGRASP_REPORT AUTO CACHE STRING "Build the command report: ON, OFF, AUTO (where npm is found)")
 set_property(CACHE ANTIGRASP_REPORT PROPERTY STRINGS AUTO ON OFF)
@@ -24,7 +24,7 @@ function(antigrasp_report_page variable)
     set(${variable} ${ANTIGRASP_REPORT_TEMPLATE} PARENT_SCOPE)
     return()
   endif()
-  set(viewer ${PROJECT_SOURCE_DIR}/viewer)
+  set(viewer ${PROJECT_SOURCE_DIR}/report/viewer)
   # npm writes this file last: packages are fetched when the lock file changed, and only then.
   set(packages ${viewer}/node_modules/.package-lock.json)
   add_custom_command(OUTPUT ${packages}

@@ -71,11 +71,11 @@ class Clone:
         return failed[1] if failed else ""
 
     def first_page_failure(self, files):
-        if self.run("npx", "tsc", "--noEmit", folder="viewer").returncode:
+        if self.run("npx", "tsc", "--noEmit", folder="report/viewer").returncode:
             return "tsc"
         paths = [f"tests/{name}" for name in files] or sorted(
-            str(p.relative_to(self.folder / "viewer")) for p in (self.folder / "viewer/tests").glob("*.test.mjs"))
-        done = self.run("node", "--test", "--test-concurrency=1", *paths, folder="viewer")
+            str(p.relative_to(self.folder / "report/viewer")) for p in (self.folder / "report/viewer/tests").glob("*.test.mjs"))
+        done = self.run("node", "--test", "--test-concurrency=1", *paths, folder="report/viewer")
         failed = re.search(r"^\s*(?:✖|not ok \d+ -) (?!failing tests)(?!tests/)(.+?)(?: \([\d.]+ms\))?$", done.stdout, re.M)
         return f"viewer: {failed[1] if failed else 'exit ' + str(done.returncode)}" if done.returncode else ""
 

@@ -43,12 +43,15 @@ Texts Words(const std::string& svg) {
 // A run as far as its tables: mean graspability 0.6 of the prior set, 0.2 of episode 0, 0.05 of
 // episode 1; episode 2 is not there.
 void WriteRun(const TempFolder& folder) {
-  const std::string head = "object,status,ci_low,graspability,mean\n";
+  const std::string head =
+      "object,status,num_grasps,ci_low,graspability,ci_high,mean,fraction_nonzero\n";
   folder.Write("run/config.toml", "[cem]\nepisodes = 2\ncontrol = false\n");
-  folder.Write("run/prior_scores.csv", head + "a,ok,7,0.55,8\nb,ok,7,0.65,8\n");
-  folder.Write("run/episode_0/scores.csv",
-               head + "0,ok,7,0.1,8\n1,ok,7,0.2,8\n2,ok,7,0.3,8\n3,disjoint,,,\n");
-  folder.Write("run/episode_1/scores.csv", head + "0,ok,7,0.05,8\n");
+  folder.Write("run/prior_scores.csv", head + "a,ok,100,7,0.55,9,8,1\nb,ok,100,7,0.65,9,8,1\n");
+  folder.Write(
+      "run/episode_0/scores.csv",
+      head +
+          "0,ok,100,7,0.1,9,8,1\n1,ok,100,7,0.2,9,8,1\n2,ok,100,7,0.3,9,8,1\n3,disjoint,0,,,,,\n");
+  folder.Write("run/episode_1/scores.csv", head + "0,ok,100,7,0.05,9,8,1\n");
 }
 
 TEST(FigureNumbersCli, Figure4IsInUnitsOfTheMeanOfEpisode0) {

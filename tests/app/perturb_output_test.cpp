@@ -68,26 +68,32 @@ std::map<std::string, std::string> RowOf(const std::string& csv, int number) {
 
 using Row = std::map<std::string, std::string>;
 
+std::string Csv(const std::vector<PerturbedObject>& objects) {
+  std::vector<PerturbRow> rows;
+  for (const PerturbedObject& item : objects) rows.push_back(antigrasp::RowOf(item));
+  return PerturbCsv(rows);
+}
+
 TEST(PerturbOutput, EveryColumnHoldsWhatItsNameSays) {
-  EXPECT_EQ(RowOf(PerturbCsv({Changed()}), 0), (Row{{"object", "ball.stl"},
-                                                    {"status", "ok"},
-                                                    {"faces_before", "12"},
-                                                    {"faces_after", "20"},
-                                                    {"pairs_before", "66"},
-                                                    {"pairs_after", "55"},
-                                                    {"graspability_before", "0.75"},
-                                                    {"graspability_after", "0.25"},
-                                                    {"difference", "-0.5"},
-                                                    {"normal_max_deg", "15.5"},
-                                                    {"normal_mean_deg", "3.5"},
-                                                    {"hausdorff_pct", "1.25"},
-                                                    {"chamfer_pct", "0.5"},
-                                                    {"volume_change_pct", "-2.5"},
-                                                    {"center_of_mass_pct", "0.125"},
-                                                    {"iterations", "100"},
-                                                    {"moved", "61"},
-                                                    {"no_gain", "30"},
-                                                    {"refused", "9"}}));
+  EXPECT_EQ(RowOf(Csv({Changed()}), 0), (Row{{"object", "ball.stl"},
+                                             {"status", "ok"},
+                                             {"faces_before", "12"},
+                                             {"faces_after", "20"},
+                                             {"pairs_before", "66"},
+                                             {"pairs_after", "55"},
+                                             {"graspability_before", "0.75"},
+                                             {"graspability_after", "0.25"},
+                                             {"difference", "-0.5"},
+                                             {"normal_max_deg", "15.5"},
+                                             {"normal_mean_deg", "3.5"},
+                                             {"hausdorff_pct", "1.25"},
+                                             {"chamfer_pct", "0.5"},
+                                             {"volume_change_pct", "-2.5"},
+                                             {"center_of_mass_pct", "0.125"},
+                                             {"iterations", "100"},
+                                             {"moved", "61"},
+                                             {"no_gain", "30"},
+                                             {"refused", "9"}}));
 }
 
 TEST(PerturbOutput, NumbersThatDoNotExistAreEmptyFields) {
@@ -96,7 +102,7 @@ TEST(PerturbOutput, NumbersThatDoNotExistAreEmptyFields) {
   failed.scored.graspability_after = std::nan("");
   failed.scored.pairs_after = -1;
   cut.interrupted = true;
-  const std::string csv = PerturbCsv({failed, Refused("open.ply", "open: 4 boundary edges"), cut});
+  const std::string csv = Csv({failed, Refused("open.ply", "open: 4 boundary edges"), cut});
   Row row = RowOf(csv, 0);
   EXPECT_EQ(row["status"], "after: open: 3 boundary edges");
   EXPECT_EQ(row["graspability_before"], "0.75");
@@ -111,7 +117,7 @@ TEST(PerturbOutput, NumbersThatDoNotExistAreEmptyFields) {
 }
 
 TEST(PerturbOutput, AHistoryHasPairsAndThoseBelowTheConeByIteration) {
-  EXPECT_EQ(PerturbHistoryCsv({Changed()}),
+  EXPECT_EQ(PerturbHistoryCsv({HistoryOf(Changed())}),
             "object,iteration,pairs,pairs_below_cone\nball.stl,0,70,8\nball.stl,50,40,\n");
 }
 

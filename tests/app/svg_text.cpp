@@ -4,7 +4,7 @@
 #include <map>
 
 #include "antigrasp/core/atomic_file.h"
-#include "antigrasp/figures/canvas.h"
+#include "antigrasp/report/figures/canvas.h"
 #include "tests/support/temp_folder.h"
 
 namespace antigrasp::cli {

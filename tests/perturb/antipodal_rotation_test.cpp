@@ -8,7 +8,7 @@
 
 #include "antigrasp/mesh/inspect.h"
 #include "antigrasp/perturb/decimate.h"
-#include "antigrasp/perturb/mesh_similarity.h"
+#include "antigrasp/perturb/mesh_change.h"
 #include "tests/perturb/perturbed_shapes.h"
 #include "tests/support/shapes.h"
 

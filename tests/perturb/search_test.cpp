@@ -8,7 +8,7 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/prior_set.h"
 #include "antigrasp/mesh/inspect.h"
-#include "antigrasp/perturb/mesh_similarity.h"
+#include "antigrasp/perturb/mesh_change.h"
 #include "antigrasp/perturb/search_projection.h"
 #include "antigrasp/quality/epsilon.h"
 #include "antigrasp/quality/graspability.h"

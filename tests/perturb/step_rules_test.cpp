@@ -7,7 +7,7 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/perturb/antipodal_rotation.h"
 #include "antigrasp/perturb/exhaustive.h"
-#include "antigrasp/perturb/mesh_similarity.h"
+#include "antigrasp/perturb/mesh_change.h"
 #include "antigrasp/perturb/random_perturbation.h"
 #include "tests/perturb/perturbed_shapes.h"
 #include "tests/support/shapes.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/quality/random_grasps.h"
+#include "tests/support/random_draws.h"
 #include "tests/support/shapes.h"
 
 namespace antigrasp {

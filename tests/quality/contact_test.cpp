@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/quality/random_grasps.h"
+#include "tests/support/random_draws.h"
 
 namespace antigrasp {
 namespace {

@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "antigrasp/core/statistics.h"
 #include "antigrasp/quality/antipodal_sampler.h"
-#include "antigrasp/quality/bootstrap.h"
 #include "antigrasp/quality/epsilon.h"
 #include "antigrasp/quality/graspability.h"
 #include "antigrasp/quality/reachability.h"

@@ -6,19 +6,6 @@
 
 namespace antigrasp {
 
-Eigen::Vector3d DrawPoint(double std, RngStream* rng) {
-  Eigen::Vector3d v;
-  for (int k = 0; k < 3; ++k) v[k] = std * rng->Normal();
-  return v;
-}
-
-Eigen::Vector3d DrawDirection(RngStream* rng) { return DrawPoint(1.0, rng).normalized(); }
-
-Eigen::Matrix3d DrawRotation(RngStream* rng) {
-  const double angle = rng->Uniform(0.0, std::numbers::pi);
-  return Eigen::AngleAxisd(angle, DrawDirection(rng)).toRotationMatrix();
-}
-
 RandomGrasp DrawRandomGrasp(double spread, int cone_edges, RngStream* rng) {
   RandomGrasp grasp;
   grasp.model.friction = rng->Uniform(0.05, 1.5);

@@ -2,6 +2,7 @@
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/quality/epsilon.h"
+#include "tests/support/random_draws.h"
 
 namespace antigrasp {
 
@@ -14,9 +15,5 @@ struct RandomGrasp {
 // Two contacts about 4 cm apart whose inward normals make angles up to `spread` * atan(friction)
 // with the contact line; friction, forces, lengths and the centre of mass vary.
 RandomGrasp DrawRandomGrasp(double spread, int cone_edges, RngStream* rng);
-
-Eigen::Vector3d DrawDirection(RngStream* rng);
-Eigen::Matrix3d DrawRotation(RngStream* rng);
-Eigen::Vector3d DrawPoint(double std, RngStream* rng);
 
 }  // namespace antigrasp

@@ -7,7 +7,7 @@
 
 #include "antigrasp/quality/epsilon.h"
 #include "antigrasp/quality/jaw_closing.h"
-#include "tests/quality/random_grasps.h"
+#include "tests/support/random_draws.h"
 #include "tests/support/shapes.h"
 
 namespace antigrasp {

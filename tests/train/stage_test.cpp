@@ -27,7 +27,7 @@ RemeshResult Object(RemeshStatus status) {
   return object;
 }
 
-TEST(ScoresCsv, OfAStageHasEveryNumberUnderItsOwnName) {
+TEST(StageScoresCsv, OfAStageHasEveryNumberUnderItsOwnName) {
   ScoredStage scored;
   scored.objects = {Object(RemeshStatus::kOk), Object(RemeshStatus::kDisjoint),
                     Object(RemeshStatus::kOk)};
@@ -39,7 +39,7 @@ TEST(ScoresCsv, OfAStageHasEveryNumberUnderItsOwnName) {
   scored.scores[0].mean = 0.625;
   scored.scores[0].fraction_nonzero = 0.875;
   scored.scores[0].grasps.resize(3);
-  EXPECT_EQ(ScoresCsv(scored),
+  EXPECT_EQ(StageScoresCsv(scored),
             "object,status,num_grasps,graspability,ci_low,ci_high,mean,fraction_nonzero\n"
             "0,few_grasps,3,0.5,0.25,0.75,0.625,0.875\n"
             "1,disjoint,0,,,,,\n"

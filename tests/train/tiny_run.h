@@ -3,8 +3,8 @@
 #include <string>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/observer.h"
 #include "antigrasp/train/run_config.h"
-#include "antigrasp/train/run_observer.h"
 
 namespace antigrasp::shapes {
 

@@ -1,0 +1,182 @@
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <type_traits>
+
+#include "antigrasp/app/commands.h"
+#include "antigrasp/app/console.h"
+#include "antigrasp/app/flags.h"
+#include "antigrasp/app/perturb_output.h"
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/perturb/antipodal_rotation.h"
+#include "antigrasp/perturb/exhaustive.h"
+#include "antigrasp/perturb/random_perturbation.h"
+#include "antigrasp/perturb/search.h"
+
+namespace antigrasp {
+namespace {
+
+struct PerturbFlags {
+  std::vector<std::string> inputs;
+  std::string out;
+  std::uint64_t seed = 1;
+  int threads = 0;
+};
+
+// Turns the progress of objects that run at the same time into that of the whole.
+class SharedProgress {
+ public:
+  SharedProgress(std::size_t objects, ProgressFn progress)
+      : total_(kSteps * static_cast<std::int64_t>(objects)), progress_(std::move(progress)) {}
+
+  // To be called with growing shares of one object; `at` remembers the last.
+  void Report(double share, std::int64_t* at) {
+    const auto now = static_cast<std::int64_t>(share * kSteps);
+    if (now <= *at) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    done_ += now - *at;
+    *at = now;
+    progress_(done_, total_);
+  }
+
+ private:
+  static constexpr std::int64_t kSteps = 100;
+  std::mutex mutex_;
+  std::int64_t done_ = 0, total_;
+  ProgressFn progress_;
+};
+
+// What a signal cuts short is marked so, and the objects that are done are kept.
+std::vector<PerturbedObject> PerturbAll(std::vector<InputObject> inputs,
+                                        const PerturbSettings& settings, int threads,
+                                        const ProgressFn& bar) {
+  std::vector<PerturbedObject> objects(inputs.size());
+  SharedProgress progress(inputs.size(), bar);
+  ParallelFor(static_cast<std::int64_t>(inputs.size()), threads, [&](std::int64_t i) {
+    PerturbedObject& item = objects[static_cast<std::size_t>(i)];
+    item.object = std::move(inputs[static_cast<std::size_t>(i)]);
+    std::int64_t at = 0;
+    try {
+      if (item.object.ok()) {
+        item.scored = PerturbAndScore(item.object.mesh, settings, static_cast<std::uint64_t>(i),
+                                      [&](std::int64_t done, std::int64_t total) {
+                                        if (InterruptRequested()) throw Interrupted();
+                                        // The scores before and after take the rest.
+                                        progress.Report(0.99 * double(done) / double(total), &at);
+                                      });
+      }
+      progress.Report(1.0, &at);
+    } catch (const Interrupted&) {
+      item.interrupted = item.scored.result.mesh.faces.empty();
+    }
+  });
+  return objects;
+}
+
+void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
+             const std::string& constants) {
+  ConsoleObserver console;
+  CheckPerturbFolder(flags.inputs, flags.out);
+  auto inputs = LoadObjects(flags.inputs, flags.threads, console.Phase("reading"));
+  CheckPerturbNames(inputs);
+  const auto objects =
+      PerturbAll(std::move(inputs), settings, flags.threads, console.Phase("perturbing"));
+  const std::filesystem::path out(flags.out);
+  WritePerturbedMeshes(objects, out);
+  std::vector<PerturbRow> rows;
+  std::vector<PerturbHistory> histories;
+  for (const PerturbedObject& item : objects) {
+    rows.push_back(RowOf(item));
+    histories.push_back(HistoryOf(item));
+  }
+  if (settings.common.history) WriteFileAtomic(out / "history.csv", PerturbHistoryCsv(histories));
+  WriteFileAtomic(out / "perturb.toml", constants);
+  WritePerturbedSheet(objects, out, flags.threads);
+  WriteFileAtomic(out / "perturb.csv", PerturbCsv(rows));  // last: the rest is there
+  for (const PerturbedObject& item : objects) {
+    if (item.Status() != "ok") spdlog::warn("{}: {}", item.object.name, item.Status());
+  }
+  std::printf("%smeshes before and after, their picture (sheet.png) and perturb.csv in %s\n",
+              PerturbSummary(objects).c_str(), flags.out.c_str());
+  if (InterruptRequested()) throw Interrupted();
+}
+
+// One subcommand: the options of its own algorithm, those that the paper's three share, and the
+// metric's. `run` is the algorithm.
+template <typename Options, typename Run>
+void AddMethod(CLI::App* perturb, const std::string& name, const std::string& help,
+               const Run& run) {
+  CLI::App* command = perturb->add_subcommand(name, help);
+  const auto flags = std::make_shared<PerturbFlags>();
+  command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
+  command->add_option("--out", flags->out, "folder for before/, after/, sheet.png and perturb.csv")
+      ->required();
+  command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
+  command->add_option("--threads", flags->threads, "threads; 0 = all; results do not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  const auto bind = [](OptionTable* table, Options* own, PerturbOptions* common) {
+    Bind(table, own);
+    if (!std::is_same_v<Options, SearchOptions>) Bind(table, common);
+  };
+  Options default_own;
+  PerturbOptions default_common;
+  OptionTable defaults;
+  bind(&defaults, &default_own, &default_common);
+  const OptionFlags own_flags(command, defaults, "Perturbation");
+  const auto metric_flags = std::make_shared<MetricFlags>(command);
+  command->callback([flags, own_flags, metric_flags, bind, run] {
+    Options own;
+    PerturbSettings settings;
+    OptionTable table;
+    bind(&table, &own, &settings.common);
+    own_flags.Apply(&table);
+    settings.metric = metric_flags->Resolve();
+    settings.seed = flags->seed;
+    settings.method = [own, metric = settings.metric, run](const auto&... arguments) {
+      return run(own, metric, arguments...);
+    };
+    Bind(&table, &settings.metric);
+    Perturb(*flags, settings, "seed = " + std::to_string(flags->seed) + "\n\n" + table.Dump());
+  });
+}
+
+}  // namespace
+
+void AddPerturbCommand(CLI::App* app) {
+  CLI::App* perturb = app->add_subcommand(
+      "perturb", "Make objects harder to grasp by moving their vertices (paper, section IV)");
+  perturb->require_subcommand(1);
+  perturb->footer("antigrasp perturb METHOD --help shows a method's options");
+  AddMethod<ExhaustiveOptions>(
+      perturb, "exhaustive", "IV-A: every vertex of every antipodal face; small meshes",
+      [](const ExhaustiveOptions& own, const MetricOptions&, const TriangleMesh& mesh,
+         const PairLimits& pairs, const PerturbOptions& common, RngStream* rng,
+         const ProgressFn& progress) {
+        return PerturbExhaustively(mesh, pairs, common, own, rng, progress);
+      });
+  AddMethod<RandomPerturbOptions>(
+      perturb, "random", "IV-B: random vertices of sampled pairs, normals kept within alpha",
+      [](const RandomPerturbOptions& own, const MetricOptions&, const TriangleMesh& mesh,
+         const PairLimits& pairs, const PerturbOptions& common, RngStream* rng,
+         const ProgressFn& progress) {
+        return PerturbRandomly(mesh, pairs, common, own, rng, progress);
+      });
+  AddMethod<RotationOptions>(
+      perturb, "rotation", "IV-C: decimate, then turn the faces of sampled pairs apart",
+      [](const RotationOptions& own, const MetricOptions&, const TriangleMesh& mesh,
+         const PairLimits& pairs, const PerturbOptions& common, RngStream* rng,
+         const ProgressFn& progress) {
+        return PerturbByRotation(mesh, pairs, common, own, rng, progress);
+      });
+  AddMethod<SearchOptions>(
+      perturb, "search", "beyond the paper: descent on the metric, normals kept within alpha",
+      [](const SearchOptions& own, const MetricOptions& metric, const TriangleMesh& mesh,
+         const PairLimits&, const PerturbOptions&, RngStream* rng,
+         const ProgressFn& progress) { return PerturbBySearch(mesh, metric, own, rng, progress); });
+}
+
+}  // namespace antigrasp

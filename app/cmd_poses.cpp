@@ -1,0 +1,105 @@
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "antigrasp/app/commands.h"
+#include "antigrasp/app/console.h"
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/csv_writer.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/datasets/objects.h"
+#include "antigrasp/mesh/convex_hull.h"
+#include "antigrasp/mesh/stable_poses.h"
+
+namespace antigrasp {
+namespace {
+
+struct PosesFlags {
+  std::vector<std::string> inputs;
+  std::string out;
+  int threads = 0;
+};
+
+// An object that encloses no volume gets the centre of mass of its hull.
+std::vector<StablePose> PosesOf(const InputObject& object) {
+  if (object.ok()) return StablePoses(object.mesh, CenterOfMass(object.mesh));
+  return StablePoses(object.mesh, CenterOfMass(ConvexHull(object.mesh.vertices)));
+}
+
+void AppendPoses(const std::string& name, const std::vector<StablePose>& poses, CsvWriter* csv) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    csv->Text(name).Count(std::int64_t(i)).Numbers({poses[i].probability, poses[i].com_height});
+    for (const double value : poses[i].table_from_object.reshaped<Eigen::RowMajor>()) {
+      csv->Number(value);
+    }
+    csv->EndRow();
+  }
+}
+
+void Poses(const PosesFlags& flags) {
+  if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
+  ConsoleObserver console;
+  const std::vector<InputObject> objects =
+      LoadObjects(flags.inputs, flags.threads, console.Phase("reading"));
+  std::vector<std::vector<StablePose>> poses(objects.size());
+  ParallelFor(
+      std::ssize(objects), flags.threads,
+      [&](std::int64_t i) {
+        const auto slot = static_cast<std::size_t>(i);
+        poses[slot] = PosesOf(objects[slot]);
+      },
+      console.Phase("stable poses"));
+  CsvWriter csv({"object", "pose", "probability", "com_height", "r00", "r01", "r02", "r10", "r11",
+                 "r12", "r20", "r21", "r22"});
+  std::size_t with_poses = 0;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    with_poses += poses[i].empty() ? 0 : 1;
+    AppendPoses(objects[i].name, poses[i], &csv);
+  }
+  if (with_poses == 0) {
+    throw InputError("no stable pose", flags.inputs.front(), "an object that is not flat");
+  }
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const InputObject& object = objects[i];
+    if (poses[i].empty()) {
+      spdlog::warn("{}: no stable pose: {}", object.name, object.ok() ? "flat" : object.status);
+    } else if (!object.ok()) {
+      spdlog::warn("{}: {}; with the centre of mass of its convex hull", object.name,
+                   object.status);
+    }
+  }
+  if (flags.out.empty()) {
+    std::printf("%s", csv.text().c_str());
+  } else {
+    WriteFileAtomic(flags.out, csv.text());
+  }
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (poses[i].empty()) continue;
+    std::fprintf(stderr, "%s: %zu stable poses, the likeliest %.1f %%\n", objects[i].name.c_str(),
+                 poses[i].size(), 100.0 * poses[i].front().probability);
+  }
+}
+
+constexpr const char* kColumns =
+    "Columns: probability of the pose after a drop in a random orientation (quasi-static);\n"
+    "com_height, the centre of mass above the table in the mesh's unit; r00 ... r22, the rotation\n"
+    "from the object to the table frame by rows: r20 r21 r22 is the table's normal, up, in the\n"
+    "object frame.\n";
+
+}  // namespace
+
+void AddPosesCommand(CLI::App* app) {
+  const auto flags = std::make_shared<PosesFlags>();
+  CLI::App* command =
+      app->add_subcommand("poses", "Compute the stable poses of objects and their probabilities");
+  command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
+  command->add_option("--out", flags->out, "poses (CSV). Without it they go to standard output");
+  command->add_option("--threads", flags->threads, "threads; 0 = all")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->footer(kColumns);
+  command->callback([flags] { Poses(*flags); });
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,122 @@
+#include <cstdio>
+#include <memory>
+
+#include "antigrasp/app/commands.h"
+#include "antigrasp/app/console.h"
+#include "antigrasp/app/flags.h"
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/csv_writer.h"
+#include "antigrasp/quality/contact_table.h"
+
+namespace antigrasp {
+namespace {
+
+struct QualityFlags {
+  std::string table;
+  std::string out;
+  int threads = 0;
+};
+
+OptionFlags ContactOptionFlags(CLI::App* command) {
+  ContactTableOptions defaults;
+  OptionTable table;
+  Bind(&table, &defaults);
+  return {command, table, "Contacts"};
+}
+
+std::vector<ContactRowQuality> EvaluateRows(const std::vector<ContactRow>& rows,
+                                            const WrenchResistanceOptions& options, int threads) {
+  ConsoleObserver console;
+  std::vector<ContactRowQuality> qualities(rows.size());
+  ParallelFor(
+      static_cast<std::int64_t>(rows.size()), threads,
+      [&](std::int64_t i) {
+        const auto slot = static_cast<std::size_t>(i);
+        qualities[slot] = EvaluateContacts(rows[slot], options);
+      },
+      console.Phase("grasps"));
+  return qualities;
+}
+
+std::string QualityCsv(const std::vector<ContactRow>& rows,
+                       const std::vector<ContactRowQuality>& qualities) {
+  CsvWriter csv({"id", "epsilon", "force_closure", "force_closure_signed", "wrench_resisted",
+                 "wrench_resistance"});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ContactRowQuality& quality = qualities[i];
+    csv.Text(rows[i].id).Number(quality.epsilon);
+    csv.Count(quality.force_closure).Count(quality.force_closure_signed);
+    if (quality.resistance) {
+      csv.Count(quality.resistance->resisted).Number(quality.resistance->quality);
+    } else {
+      csv.Text("").Text("");
+    }
+    csv.EndRow();
+  }
+  return csv.text();
+}
+
+void PrintSummary(const std::vector<ContactRowQuality>& qualities) {
+  int positive = 0, closed = 0, asked = 0, resisted = 0;
+  for (const ContactRowQuality& quality : qualities) {
+    positive += quality.epsilon > 0.0 ? 1 : 0;
+    closed += quality.force_closure_signed ? 1 : 0;
+    asked += quality.resistance ? 1 : 0;
+    resisted += quality.resistance && quality.resistance->resisted ? 1 : 0;
+  }
+  std::fprintf(stderr,
+               "%zu grasps: %d with epsilon > 0, %d in force closure, %d of %d wrenches resisted\n",
+               qualities.size(), positive, closed, resisted, asked);
+}
+
+void Quality(const QualityFlags& flags, const OptionFlags& contact_flags) {
+  ContactTableOptions options;
+  OptionTable table;
+  Bind(&table, &options);
+  contact_flags.Apply(&table);
+  if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
+  const std::vector<ContactRow> rows = ReadContactTable(flags.table, options);
+  const std::vector<ContactRowQuality> qualities =
+      EvaluateRows(rows, options.wrench, flags.threads);
+  if (flags.out.empty()) {
+    std::printf("%s", QualityCsv(rows, qualities).c_str());
+  } else {
+    WriteFileAtomic(flags.out, QualityCsv(rows, qualities));
+    WriteFileAtomic(flags.out + ".quality.toml", table.Dump());
+  }
+  PrintSummary(qualities);
+}
+
+constexpr const char* kColumns =
+    "Columns by name, in any order, others ignored; lengths in one unit:\n"
+    "  p1x p1y p1z p2x p2y p2z        the two contact points\n"
+    "  n1x n1y n1z n2x n2y n2z        outward normals of the object there\n"
+    "  comx comy comz                 centre of mass\n"
+    "and, if there are such columns:\n"
+    "  id                             else the number of the row\n"
+    "  friction_coef num_cone_faces finger_radius torque_scaling force_limit\n"
+    "                                 else the constants above\n"
+    "  in1x ... in2z                  closing direction of each jaw, has_in_direction 0 or 1;\n"
+    "                                 else unit normal forces and no slip\n"
+    "  t1c1_x ... t1c2_z              first edge of each friction pyramid; else along +x\n"
+    "  wfx wfy wfz wtx wty wtz        wrench to resist; else wrench_resisted stays empty\n";
+
+}  // namespace
+
+void AddQualityCommand(CLI::App* app) {
+  const auto flags = std::make_shared<QualityFlags>();
+  CLI::App* command = app->add_subcommand(
+      "quality", "Score grasps given as contacts: epsilon, force closure, wrench resistance");
+  command->add_option("TABLE", flags->table, "two contacts per row (CSV)")->required();
+  command->add_option("--out", flags->out,
+                      "scores (CSV); the constants go to the same name plus .quality.toml. "
+                      "Without it the scores go to standard output");
+  command->add_option("--threads", flags->threads, "threads; 0 = all; scores do not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  const auto contact_flags = std::make_shared<OptionFlags>(ContactOptionFlags(command));
+  command->footer(kColumns);
+  command->callback([flags, contact_flags] { Quality(*flags, *contact_flags); });
+}
+
+}  // namespace antigrasp

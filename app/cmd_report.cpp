@@ -1,0 +1,112 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "antigrasp/app/commands.h"
+#include "antigrasp/app/console.h"
+#include "antigrasp/app/flags.h"
+#include "antigrasp/app/network_commands.h"
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/version.h"
+#include "antigrasp/report/objects_report.h"
+#include "antigrasp/report/page/page.h"
+#include "antigrasp/report/page/report_template.h"
+#include "antigrasp/report/perturbed_report.h"
+#include "antigrasp/report/print_report.h"
+#include "antigrasp/report/run_report.h"
+
+namespace antigrasp {
+namespace {
+
+struct ReportFlags {
+  ReportSettings settings;
+  std::string out, title;
+  double size_mm = 60.0;
+};
+
+// A run, or a folder that `perturb` wrote, has a metric of its own and fills a page alone.
+Report Collect(const ReportSettings& settings, bool metric_given, RunObserver* observer) {
+  for (const std::string& input : settings.inputs) {
+    const bool run = IsRun(input), perturbed = !run && IsPerturbed(input);
+    const bool own_metric = run || perturbed || IsScoreTable(input);
+    if (own_metric && metric_given) {
+      throw InputError("constants of the metric or a seed for " + input, "command line",
+                       "none: it is shown with its own");
+    }
+    if (!run && !perturbed) continue;
+    if (settings.inputs.size() > 1) {
+      throw InputError(input + " beside other inputs", "command line",
+                       "a run or a folder of perturbed objects alone");
+    }
+    return run ? RunReport(RunFolder{input}, settings, observer)
+               : PerturbedReport(input, settings, observer);
+  }
+  return ObjectsReport(settings, observer);
+}
+
+std::string TitleOf(const std::vector<std::string>& inputs) {
+  std::string title;
+  for (const std::string& input : inputs) title += (title.empty() ? "" : ", ") + input;
+  while (title.size() > 1 && title.ends_with('/')) title.pop_back();
+  return title;
+}
+
+void WriteReport(const ReportFlags& flags, bool metric_given) {
+  const AtomicFile probe(flags.out);  // refuses an unwritable target before the work
+  ConsoleObserver console;
+  Report report = Collect(flags.settings, metric_given, &console);
+  AddPrintChecks(flags.size_mm, flags.settings.threads, &console, &report);
+  report.title = flags.title.empty() ? TitleOf(flags.settings.inputs) : flags.title;
+  report.provenance.emplace_back("report made by",
+                                 "antigrasp " + ProgramVersion() + " (" + ProgramCommit() + ")");
+  PayloadOptions options;
+  options.threads = flags.settings.threads;
+  const ReportPayload payload = EncodeReport(report, options, console.Phase("packing"));
+  const std::string page = FillTemplate(ReportTemplate(), report.title, payload);
+  WriteFileAtomic(flags.out, page);
+  for (const std::string& sentence : report.missing) {
+    std::fprintf(stderr, "%s\n", sentence.c_str());
+  }
+  std::printf("%s: %zu objects, %.1f MB\n", flags.out.c_str(), report.objects.size(),
+              1e-6 * static_cast<double>(page.size()));
+}
+
+}  // namespace
+
+void AddReportCommand(CLI::App* app) {
+  const auto flags = std::make_shared<ReportFlags>();
+  ReportSettings& settings = flags->settings;
+  CLI::App* command = app->add_subcommand(kReport.name, kReport.description);
+  command
+      ->add_option("INPUT", settings.inputs,
+                   "a run; a folder that perturb wrote; or meshes, folders of meshes, SDF files "
+                   "and scores of evaluate")
+      ->required();
+  command->add_option("--out", flags->out, "the page (HTML)")->required();
+  command->add_option("--title", flags->title, "of the page; without it, the inputs");
+  command
+      ->add_option(
+          "--per-stage", settings.per_stage,
+          "objects shown of every stage of a run: half the least graspable, half at random")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  command->add_option("--limit", settings.limit, "objects shown of other inputs; 0 = all")
+      ->capture_default_str();
+  command->add_option("--size-mm", flags->size_mm, "largest extent in the print check, mm")
+      ->check(NumberIn(0.001, 1e5))
+      ->capture_default_str();
+  CLI::Option* const seed =
+      command->add_option("--seed", settings.seed, "random seed of the scores")
+          ->capture_default_str();
+  command->add_option("--threads", settings.threads, "threads; 0 = all; no byte depends on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  const auto metric = std::make_shared<MetricFlags>(command);
+  command->callback([flags, metric, seed] {
+    flags->settings.metric = metric->Resolve();
+    WriteReport(*flags, metric->given() || seed->count() > 0);
+  });
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,86 @@
+#include <torch/types.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "antigrasp/app/commands.h"
+#include "antigrasp/app/console.h"
+#include "antigrasp/app/network_commands.h"
+#include "antigrasp/checkpoints/checkpoint.h"
+#include "antigrasp/checkpoints/pretrained.h"
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/models/sdf_values.h"
+#include "antigrasp/train/episode_loop.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SampleFlags {
+  std::string checkpoint;
+  int count = 64;
+  std::uint64_t seed = 1;
+  std::string out;
+  std::string device = "cpu";
+  int threads = 0;
+};
+
+void Sample(const SampleFlags& flags) {
+  const fs::path path = FindNetworks(flags.checkpoint);
+  const AtomicFile probe(flags.out);  // refuses an unwritable target before the work
+  const Checkpoint checkpoint = ReadCheckpoint(path);
+  RunConfig config = NetworksFromToml(checkpoint.config, path.string());
+  config.device = flags.device;
+  config.threads = flags.threads;
+  GanTrainer trainer = MakeTrainer(config);
+  ReadNetworks(path, [&](auto* archive) { trainer.LoadNetworks(archive); });
+
+  ConsoleObserver console;
+  const ProgressFn progress = console.Phase("sampling");
+  ShapeSet set;
+  set.kind = "samples";
+  set.seed = flags.seed;
+  set.truncation = LargestDistance(config.model);
+  set.provenance = "antigrasp sample " + path.string() + ", episode " +
+                   std::to_string(trainer.episode()) + ", update " + std::to_string(trainer.step());
+  constexpr int kChunk = 64;
+  for (int first = 0; first < flags.count; first += kChunk) {
+    const torch::Tensor values =
+        trainer.Sample(flags.seed, first, std::min(kChunk, flags.count - first));
+    for (std::int64_t i = 0; i < values.size(0); ++i) {
+      char name[32];
+      std::snprintf(name, sizeof name, "sample-%06d", first + static_cast<int>(i));
+      set.names.push_back(name);
+      set.grids.push_back(GridOf(values[i], config.model));
+    }
+    progress(std::min(first + kChunk, flags.count), flags.count);
+  }
+  WriteShapeSet(flags.out, set);
+  std::printf("%s: %d samples, seed %llu, from %s\n", flags.out.c_str(), flags.count,
+              static_cast<unsigned long long>(flags.seed), path.c_str());
+}
+
+}  // namespace
+
+void AddSampleCommand(CLI::App* app) {
+  const auto flags = std::make_shared<SampleFlags>();
+  CLI::App* command = app->add_subcommand(kSample.name, kSample.description);
+  command
+      ->add_option("CKPT", flags->checkpoint,
+                   "checkpoint, folder of a run, or name of pretrained networks")
+      ->required();
+  command->add_option("--count", flags->count, "grids to sample")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--seed", flags->seed, "seed of the latent vectors")->capture_default_str();
+  command->add_option("--out", flags->out, "SDF file to write (HDF5)")->required();
+  command->add_option("--device", flags->device, "cpu, cuda, cuda:1")->capture_default_str();
+  command->add_option("--threads", flags->threads, "threads; 0 = all")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->callback([flags] { Sample(*flags); });
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,46 @@
+// antigrasp: the commands on meshes. Those that need networks are only named here
+// (network_commands.h).
+#include "antigrasp/app/commands.h"
+#include "antigrasp/app/network_commands.h"
+#include "antigrasp/app/program.h"
+
+namespace antigrasp {
+namespace {
+
+void Name(const NetworkCommand& command, CLI::App* app) {
+  app->add_subcommand(command.name, command.description);
+}
+
+void AddCommands(CLI::App* app) {
+  AddDatasetCommand(app);
+  Name(kTrain, app);
+  Name(kSample, app);
+  AddRemeshCommand(app);
+  AddEvaluateCommand(app);
+  AddCompareCommand(app);
+  AddQualityCommand(app);
+  AddPerturbCommand(app);
+  AddShapeCommand(app);
+  AddPosesCommand(app);
+  AddTrialCommand(app);
+  AddSheetCommand(app);
+#ifdef ANTIGRASP_HAS_REPORT
+  Name(kReport, app);
+#endif
+  Name(kFigure, app);
+  AddExportCommand(app);
+  Name(kGenerator, app);
+  AddInfoCommand(app);
+}
+
+}  // namespace
+}  // namespace antigrasp
+
+int main(int argc, char** argv) {
+  using namespace antigrasp;
+  RememberArguments(argv);
+  return RunProgram(argc, argv, [&](CLI::App* app) {
+    if (NeedsNetworks(argc, argv)) BecomeNetworks();
+    AddCommands(app);
+  });
+}

@@ -1,0 +1,53 @@
+#include "antigrasp/app/network_commands.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "antigrasp/core/error.h"
+
+namespace antigrasp {
+namespace {
+
+char** g_arguments = nullptr;
+
+// LibTorch, oneDNN and OpenBLAS choose their kernels by the processor, and those of AVX-512 add in
+// another order. All take those of AVX2 where there is no wish to the contrary, so that a seed
+// gives the same bytes on every x86-64 with AVX2. They look when they are loaded: it has to be said
+// before (docs/performance.md has what it costs).
+void AskForTheSameKernelsEverywhere() {
+#ifdef __x86_64__
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return;
+  constexpr int kKeepTheUsersOwn = 0;
+  setenv("ATEN_CPU_CAPABILITY", "avx2", kKeepTheUsersOwn);
+  setenv("DNNL_MAX_CPU_ISA", "AVX2", kKeepTheUsersOwn);
+  setenv("OPENBLAS_CORETYPE", "Haswell", kKeepTheUsersOwn);
+#endif
+}
+
+}  // namespace
+
+bool NeedsNetworks(int argc, char** argv) {
+  const bool help = argc > 2 && std::strcmp(argv[1], "help") == 0;
+  const char* command = argc > 1 ? argv[help ? 2 : 1] : "";
+  for (const auto& [name, description] : {kTrain, kSample, kReport, kFigure, kGenerator}) {
+    if (std::strcmp(command, name) == 0) return true;
+  }
+  return false;
+}
+
+void RememberArguments(char** argv) { g_arguments = argv; }
+
+void BecomeNetworks() {
+  const auto program =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "antigrasp-networks";
+  AskForTheSameKernelsEverywhere();
+  execv(program.c_str(), g_arguments);
+  throw RuntimeFailure(program.string() + " cannot be started (" + std::strerror(errno) +
+                       "): this command needs the build with LibTorch");
+}
+
+}  // namespace antigrasp

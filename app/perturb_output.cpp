@@ -1,0 +1,166 @@
+#include "antigrasp/app/perturb_output.h"
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numeric>
+
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/render/contact_sheet.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kSheetColumns = 8;
+
+bool IsOk(const PerturbedObject& item) { return item.Status() == "ok"; }
+
+// The first word or two of a status: "after: open: 3 boundary edges" counts as "after: open".
+std::string Reason(const std::string& status) {
+  const std::size_t first = status.find(": ");
+  if (first == std::string::npos) return status;
+  const std::string stage = status.substr(0, first);
+  if (stage != "before" && stage != "after" && stage != "decimated") return stage;
+  return status.substr(0, status.find(": ", first + 2));
+}
+
+}  // namespace
+
+std::string PerturbedObject::Status() const {
+  if (!object.ok()) return "before: " + object.status;
+  if (interrupted) return "interrupted";
+  return scored.result.failure.empty() ? "ok" : scored.result.failure;
+}
+
+PerturbRow RowOf(const PerturbedObject& item) {
+  const ScoredPerturbation& s = item.scored;
+  const auto count = [](std::int64_t n) { return n < 0 ? std::nan("") : static_cast<double>(n); };
+  PerturbRow row{item.object.name, item.Status()};
+  row.faces_before = static_cast<double>(item.object.mesh.faces.size());
+  row.faces_after = static_cast<double>(s.result.mesh.faces.size());
+  row.pairs_before = count(s.pairs_before);
+  row.pairs_after = count(s.pairs_after);
+  if (item.object.ok() && !item.interrupted) {
+    row.graspability_before = s.graspability_before;
+    row.graspability_after = s.graspability_after;
+    row.difference = s.graspability_after - s.graspability_before;
+    row.normal_max_deg = s.normals.largest;
+    row.normal_mean_deg = s.normals.mean;
+    row.hausdorff_pct = s.similarity.hausdorff;
+    row.chamfer_pct = s.similarity.chamfer;
+    row.volume_change_pct = s.similarity.volume_change;
+    row.center_of_mass_pct = s.similarity.center_of_mass;
+  }
+  const auto& refused = s.result.refused;
+  row.iterations = count(s.result.iterations);
+  row.moved = count(s.result.moved);
+  row.no_gain = count(s.result.no_gain);
+  row.refused = count(std::accumulate(refused.begin(), refused.end(), std::int64_t{0}));
+  return row;
+}
+
+PerturbHistory HistoryOf(const PerturbedObject& item) {
+  PerturbHistory history{item.object.name, {}, {}, {}};
+  for (const PairCount& count : item.scored.result.history) {
+    history.iteration.push_back(static_cast<double>(count.iteration));
+    history.pairs.push_back(static_cast<double>(count.pairs));
+    history.pairs_below_cone.push_back(count.below < 0 ? std::nan("")
+                                                       : static_cast<double>(count.below));
+  }
+  return history;
+}
+
+std::string PerturbSummary(const std::vector<PerturbedObject>& objects) {
+  std::vector<double> before, after, largest, hausdorff, seconds;
+  std::map<std::string, int> failed;
+  for (const PerturbedObject& item : objects) {
+    if (!IsOk(item)) {
+      ++failed[Reason(item.Status())];
+      continue;
+    }
+    before.push_back(item.scored.graspability_before);
+    after.push_back(item.scored.graspability_after);
+    largest.push_back(item.scored.normals.largest);
+    hausdorff.push_back(item.scored.similarity.hausdorff);
+    seconds.push_back(item.scored.seconds);
+  }
+  const MeanInterval reduction = KappaReduction(before, after);
+  char interval[64] = "", line[320];
+  if (std::isfinite(reduction.half_width)) {  // a single object says nothing about the spread
+    std::snprintf(interval, sizeof interval, " +-%.1f", reduction.half_width);
+  }
+  std::snprintf(line, sizeof line,
+                "%zu of %zu objects perturbed: mean graspability %.5f -> %.5f, kappa reduced by "
+                "%.1f%s %%\n"
+                "mean over objects: largest turn of a normal %.1f degrees, Hausdorff distance %.2f "
+                "%% of the diagonal, %.2g s of one thread\n",
+                before.size(), objects.size(), MeanWithInterval(before).mean,
+                MeanWithInterval(after).mean, reduction.mean, interval,
+                MeanWithInterval(largest).mean, MeanWithInterval(hausdorff).mean,
+                MeanWithInterval(seconds).mean);
+  std::string text = before.empty() ? "no object perturbed\n" : line;
+  if (failed.empty()) return text;
+  std::string reasons;
+  for (const auto& [reason, count] : failed) {
+    reasons += (reasons.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
+  }
+  return text + "failed: " + reasons + "\n";
+}
+
+void CheckPerturbFolder(const std::vector<std::string>& inputs, const fs::path& out) {
+  if (fs::exists(out) && !fs::is_directory(out)) {
+    throw InputError("cannot write into " + out.string(), "--out", "a folder, or nothing there");
+  }
+  for (const std::string& input : inputs) {
+    const fs::path path = fs::absolute(input).lexically_normal();
+    const fs::path folder = fs::is_directory(path) ? path : path.parent_path();
+    if (!IsMeshFile(path) && !fs::is_directory(path)) continue;
+    for (const fs::path& written : {out, out / "before", out / "after"}) {
+      if (fs::exists(written) && fs::equivalent(folder, written)) {
+        throw InputError("the results would be written over the inputs", "--out " + out.string(),
+                         "another folder than that of " + input);
+      }
+    }
+  }
+  fs::path parent = fs::absolute(out);
+  while (!fs::exists(parent)) parent = parent.parent_path();
+  const AtomicFile probe(parent / "perturb.csv");  // refuses what is not writable
+}
+
+void CheckPerturbNames(const std::vector<InputObject>& objects) {
+  std::map<std::string, std::string> object_of;
+  for (const InputObject& object : objects) {
+    const auto [at, fresh] = object_of.emplace(FileNameOf(object.name), object.name);
+    if (!fresh) {
+      throw InputError("two objects for " + at->first + ".stl", at->second + ", " + object.name,
+                       "names that differ by more than folder and extension");
+    }
+  }
+}
+
+void WritePerturbedMeshes(const std::vector<PerturbedObject>& objects, const fs::path& out) {
+  MakeFolder(out / "before");
+  MakeFolder(out / "after");
+  for (const PerturbedObject& item : objects) {
+    const std::string file = FileNameOf(item.object.name) + ".stl";
+    if (!item.scored.before.faces.empty()) WriteMesh(out / "before" / file, item.scored.before);
+    if (IsOk(item)) WriteMesh(out / "after" / file, item.scored.result.mesh);
+  }
+}
+
+void WritePerturbedSheet(const std::vector<PerturbedObject>& objects, const fs::path& out,
+                         int threads) {
+  std::vector<std::vector<const TriangleMesh*>> rows(2);
+  for (const PerturbedObject& item : objects) {
+    if (!IsOk(item) || rows[0].size() == kSheetColumns) continue;
+    rows[0].push_back(&item.scored.before);
+    rows[1].push_back(&item.scored.result.mesh);
+  }
+  if (!rows[0].empty()) WritePng(out / "sheet.png", ContactSheet(rows, View{}, threads));
+}
+
+}  // namespace antigrasp

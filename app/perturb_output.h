@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "antigrasp/datasets/objects.h"
+#include "antigrasp/perturb/perturb_table.h"
+#include "antigrasp/perturb/scored_perturbation.h"
+
+namespace antigrasp {
+
+// An object of the command line with what became of it.
+struct PerturbedObject {
+  InputObject object;
+  ScoredPerturbation scored;  // empty when the object is not usable or the work was cut short
+  bool interrupted = false;
+  // "ok", "interrupted", or why there is no printable result ("before: open: ...", "after:
+  // self-intersecting").
+  std::string Status() const;
+};
+
+PerturbRow RowOf(const PerturbedObject& item);  // of perturb.csv
+// |F_a| on the way: object, iteration, pairs, pairs below the cone (IV-A).
+PerturbHistory HistoryOf(const PerturbedObject& item);
+// What changed on average, and the failed objects by reason; two or three lines.
+std::string PerturbSummary(const std::vector<PerturbedObject>& objects);
+
+// InputError, with nothing written, unless `out` is a folder or can become one and no result would
+// be written over an input.
+void CheckPerturbFolder(const std::vector<std::string>& inputs, const std::filesystem::path& out);
+// InputError unless every object's files have names of their own.
+void CheckPerturbNames(const std::vector<InputObject>& objects);
+
+// out/after/NAME.stl for every printable result, out/before/NAME.stl for every usable input.
+void WritePerturbedMeshes(const std::vector<PerturbedObject>& objects,
+                          const std::filesystem::path& out);
+
+// out/sheet.png: the first printable results, and above each what it was. Nothing without one.
+void WritePerturbedSheet(const std::vector<PerturbedObject>& objects,
+                         const std::filesystem::path& out, int threads);
+
+}  // namespace antigrasp

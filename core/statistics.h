@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+namespace antigrasp {
+
+// Mean over objects with its 95 % interval (normal approximation, standard error over objects).
+// NaN values are left out. The mean of nothing and the interval of fewer than two values are NaN.
+struct MeanInterval {
+  double mean = 0.0;
+  double half_width = 0.0;
+  int count = 0;
+};
+MeanInterval MeanWithInterval(const std::vector<double>& values);
+
+// The smallest value v with at least percent/100 of the sample <= v... of a non-empty sample:
+// sorted[ceil(percent/100 * n) - 1], the discrete percentile of III-B.
+double DiscretePercentile(std::vector<double> values, double percent);
+
+struct Interval {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+// The 95 % percentile-bootstrap interval of DiscretePercentile(values, percent), exact: what
+// infinitely many resamples with replacement would give. The resampled percentile of rank r is at
+// most the j-th smallest value exactly when at least r of n draws are, each with probability j / n:
+// a binomial tail (Hutson and Ernst 2000, "The exact bootstrap mean and variance of an
+// L-estimator"). n log n; no random numbers.
+Interval BootstrapPercentile(std::vector<double> values, double percent);
+
+}  // namespace antigrasp

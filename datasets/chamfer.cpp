@@ -1,0 +1,71 @@
+#include "antigrasp/datasets/chamfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "antigrasp/core/check.h"
+#include "antigrasp/datasets/nearest_points.h"
+
+namespace antigrasp {
+namespace {
+
+double MeanDistance(const PointSet& from, const PointSet& to) {
+  thread_local std::vector<float> squared;
+  NearestSquared(from, to, &squared);
+  double sum = 0.0;
+  for (std::size_t b = 0; b < from.blocks().size(); ++b) {
+    for (std::size_t lane = 0; lane < from.blocks()[b].used; ++lane) {
+      sum += std::sqrt(static_cast<double>(squared[b * PointSet::kBlock + lane]));
+    }
+  }
+  return sum / static_cast<double>(from.size());
+}
+
+}  // namespace
+
+double Chamfer(const PointSet& a, const PointSet& b) {
+  return 0.5 * (MeanDistance(a, b) + MeanDistance(b, a));
+}
+
+DistanceMatrix ChamferMatrix(const std::vector<PointSet>& shapes, int threads,
+                             const ProgressFn& progress) {
+  const auto n = static_cast<std::int64_t>(shapes.size());
+  DistanceMatrix matrix = DistanceMatrix::Zero(n, n);
+  const auto fill_row = [&](std::int64_t i) {
+    for (std::int64_t j = i + 1; j < n; ++j) {
+      matrix(i, j) = static_cast<float>(
+          Chamfer(shapes[static_cast<std::size_t>(i)], shapes[static_cast<std::size_t>(j)]));
+    }
+  };
+  // A long row goes with a short one, so that all items cost the same and the time left is true.
+  ParallelFor((n + 1) / 2, threads,
+              [&](std::int64_t item) {
+                fill_row(item);
+                if (n - 1 - item != item) fill_row(n - 1 - item);
+              },
+              progress);
+  for (std::int64_t i = 0; i < n; ++i) {
+    for (std::int64_t j = 0; j < i; ++j) matrix(i, j) = matrix(j, i);
+  }
+  return matrix;
+}
+
+std::vector<double> NearestChamfer(const std::vector<PointSet>& shapes,
+                                   const std::vector<PointSet>& others, int threads,
+                                   const ProgressFn& progress) {
+  AG_CHECK(!others.empty(), "at least one other shape");
+  std::vector<double> nearest(shapes.size(), std::numeric_limits<double>::infinity());
+  ParallelFor(
+      static_cast<std::int64_t>(shapes.size()), threads,
+      [&](std::int64_t i) {
+        const auto slot = static_cast<std::size_t>(i);
+        for (const PointSet& other : others) {
+          nearest[slot] = std::min(nearest[slot], Chamfer(shapes[slot], other));
+        }
+      },
+      progress);
+  return nearest;
+}
+
+}  // namespace antigrasp

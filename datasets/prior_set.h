@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "antigrasp/core/parallel.h"
+#include "antigrasp/datasets/shape_set.h"
+
+namespace antigrasp {
+
+std::vector<std::string> PriorSetKinds();  // "cylinders", "prisms", "bottles"
+
+struct PriorSetOptions {
+  std::string kind = "cylinders";  // one of PriorSetKinds()
+  int count = 1000;
+  std::uint64_t seed = 1;
+  int resolution = 32;
+  int threads = 0;  // 0 = all; the set does not depend on it
+};
+
+// The synthetic sets of section VI (after Bousmalis et al. 2018): intersected cylinders (a large
+// one with its axis along z and two smaller ones grafted at random poses), intersected prisms (all
+// three sizes vary), bottles (surfaces of revolution of six families, for those without ShapeNet).
+// Exact distances, surface inside the grid border, whole set scaled as VI-C says. Shape i depends
+// on (kind, seed, i) only.
+ShapeSet MakePriorSet(const PriorSetOptions& options, const ProgressFn& progress = nullptr);
+
+}  // namespace antigrasp

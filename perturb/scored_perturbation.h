@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "antigrasp/core/parallel.h"
+#include "antigrasp/core/rng.h"
+#include "antigrasp/perturb/mesh_change.h"
+#include "antigrasp/perturb/perturbation.h"
+#include "antigrasp/quality/graspability.h"
+
+namespace antigrasp {
+
+// One of the algorithms with its own options bound.
+using PerturbMethod = std::function<PerturbResult(const TriangleMesh& mesh, const PairLimits& pairs,
+                                                  const PerturbOptions& common, RngStream* rng,
+                                                  const ProgressFn& progress)>;
+
+struct PerturbSettings {
+  PerturbMethod method;
+  PerturbOptions common;
+  MetricOptions metric;
+  std::uint64_t seed = 1;
+};
+
+// An object before and after, with all that is reported about it. What does not exist (no result,
+// no evaluable mesh) is NaN or -1.
+struct ScoredPerturbation {
+  TriangleMesh before;  // the input in single precision
+  PerturbResult result;
+  double graspability_before, graspability_after;  // under the same random numbers
+  std::int64_t pairs_before = -1, pairs_after = -1;
+  NormalDeviation normals;    // against result.start
+  MeshSimilarity similarity;  // against `before`
+  double seconds = 0.0;       // of the algorithm alone, wall time
+};
+
+// Both meshes are scored as object number `object`; the algorithm draws from the stream
+// (seed, "perturb", object). Single thread. The algorithm's progress is passed on. Any mesh; what
+// is no solid is returned with result.failure.
+ScoredPerturbation PerturbAndScore(const TriangleMesh& mesh, const PerturbSettings& settings,
+                                   std::uint64_t object, const ProgressFn& progress = nullptr);
+
+// By how many percent the mean graspability, and with it kappa, falls from before to after, with
+// its 95 % interval over objects (delta method for the ratio of two paired means). Pairs with a NaN
+// are left out.
+MeanInterval KappaReduction(const std::vector<double>& before, const std::vector<double>& after);
+
+}  // namespace antigrasp

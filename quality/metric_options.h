@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "antigrasp/core/options.h"
+#include "antigrasp/quality/gripper.h"
+
+namespace antigrasp {
+
+// Every constant of the metric (docs/metric.md). Two graspabilities compare only when all are
+// equal, so all are written into every result file. Lengths in metres, angles in radians.
+struct MetricOptions {
+  // Contact and wrench model (Dex-Net 1.0).
+  double friction = 0.5;
+  int cone_edges = 8;
+  double finger_radius = 0.005;  // soft finger: torsion +-pi r^2 mu
+  double torque_scale = 1000.0;  // 1 / m
+  // Object and gripper.
+  double object_min_extent = 0.040;  // smallest bounding-box extent after rescaling; 0 = as it is
+  double jaw_opening = 0.05;         // widest grasp
+  // Sampling.
+  int num_grasps = 100;
+  int num_draws = 25;
+  int max_attempts = 4000;         // candidate grasps tried per object
+  double grasp_separation = 1e-4;  // nearer than this, both contacts, two grasps are one
+  double percentile = 75.0;
+  bool adaptive = false;  // fewer draws for grasps far from the percentile (adaptive_draws.h)
+  // Noise (standard deviations).
+  double object_translation_std = 0.0025;
+  double object_rotation_std = 0.01;
+  double grasp_translation_std = 0.00125;
+  double grasp_rotation_std = 0.001;
+  double friction_std = 0.1;
+  // Which grasps count as reachable: "gripper" = some straight way in of the gripper is free,
+  // "jaws" = the paths of the two jaws are.
+  std::string collision = "gripper";
+  GripperModel gripper;
+};
+
+// Sets every constant to "default" (above), "dexnet" or "egad". Dex-Net: test/config.yaml of
+// BerkeleyAutomation/dex-net cccf933, 25 grasps and its own noise. EGAD (Morrison et al. 2020):
+// scripts/cfg of dougsm/egad, torque scale 100 / m and no noise, so one draw is all draws.
+void ApplyMetricPreset(const std::string& name, MetricOptions* options);
+
+// EGAD's score of a graspability under its preset: 0 (epsilon up to 0.0005, hard to grasp) to 100
+// (0.004 and above, easy), linear between. EGAD cuts it to a whole number.
+double EgadScore(double graspability);
+
+// Sets the noise to "default" (above), "dexnet" (0.01, 0.01, 0.005, 0.001, 0.1) or "none".
+void ApplyNoisePreset(const std::string& name, MetricOptions* options);
+
+void Bind(OptionTable* table, MetricOptions* options);  // keys "metric.*", "gripper.*"
+
+// What belongs beside a table of scores: the seed and every constant, as TOML.
+std::string MetricToml(const MetricOptions& metric, std::uint64_t seed);
+
+}  // namespace antigrasp

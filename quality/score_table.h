@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "antigrasp/quality/graspability.h"
+
+namespace antigrasp {
+
+// The numbers of an evaluated object in scores.csv (docs/formats.md).
+struct ScoreSummary {
+  double graspability = 0.0, ci_low = 0.0, ci_high = 0.0, mean = 0.0, fraction_nonzero = 0.0;
+  int num_grasps = 0;
+};
+
+// nullopt when the object is not evaluable.
+std::optional<ScoreSummary> SummaryOf(const Graspability& score);
+
+// A row of scores.csv, of `evaluate` or of a run's stage.
+struct ScoreRow {
+  std::string object, status;
+  std::optional<ScoreSummary> score;  // none for an object that was not scored
+  // Columns beyond those of a run ("seconds", "egad", "baseline", "difference"), the same ones in
+  // every row of a table; NaN is a gap.
+  std::vector<std::pair<std::string, double>> extras = {};
+};
+
+std::string ScoresCsv(const std::vector<ScoreRow>& rows);
+
+// InputError with file:line for a table that is cut short, lacks a column or holds no number where
+// there must be one. Extra columns are read where they are there.
+std::vector<ScoreRow> ReadScores(const std::filesystem::path& path);
+
+}  // namespace antigrasp

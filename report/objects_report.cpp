@@ -1,0 +1,171 @@
+#include "antigrasp/report/objects_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "antigrasp/core/csv_reader.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/format.h"
+#include "antigrasp/datasets/objects.h"
+#include "antigrasp/quality/score_table.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Table {
+  std::string path;
+  std::vector<ScoreRow> rows;
+  std::optional<SavedMetric> metric;
+};
+
+Table ReadTable(const std::string& path, std::vector<std::string>* missing) {
+  Table table{path, ReadScores(path), {}};
+  const std::string metric = path + ".metric.toml";
+  if (fs::exists(metric)) {
+    table.metric = ReadSavedMetric(metric);
+  } else {
+    missing->push_back(metric + " is not there: the constants of the metric are not known.");
+  }
+  return table;
+}
+
+// The row of the object and with it its random stream: the one at its own place, else the one of
+// its name.
+const ScoreRow* RowOf(const std::string& name, std::size_t place, const Table& table) {
+  if (place < table.rows.size() && table.rows[place].object == name) return &table.rows[place];
+  const auto is_it = [&](const ScoreRow& row) { return row.object == name; };
+  const auto found = std::find_if(table.rows.begin(), table.rows.end(), is_it);
+  return found == table.rows.end() ? nullptr : &*found;
+}
+
+// What `evaluate` writes beside the score, in the page's words.
+std::vector<LabelledText> ExtrasOf(const ScoreRow& row) {
+  static const std::map<std::string, std::string> kLabels = {
+      {"egad", "EGAD's score"},
+      {"baseline", "baseline"},
+      {"difference", "difference to the baseline"}};
+  std::vector<LabelledText> numbers;
+  for (const auto& [name, value] : row.extras) {
+    const auto label = kLabels.find(name);
+    if (label == kLabels.end() || std::isnan(value)) continue;
+    numbers.emplace_back(label->second, FormatDouble(value));
+  }
+  return numbers;
+}
+
+ReportObject FromRow(const ScoreRow& row, std::size_t group) {
+  ReportObject object;
+  object.name = row.object;
+  object.group = group;
+  object.status = row.status;
+  object.shape.score = row.score;
+  object.numbers = ExtrasOf(row);
+  return object;
+}
+
+Report TablesReport(const ReportSettings& settings, std::vector<Table> tables, Report report) {
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    report.groups.push_back({"input-" + std::to_string(t), tables[t].path});
+    for (const ScoreRow& row : tables[t].rows) {
+      if (settings.limit > 0 && report.objects.size() == settings.limit) break;
+      report.objects.push_back(FromRow(row, t));
+    }
+    if (!tables[t].metric) continue;
+    if (!report.metric) {
+      report.metric = tables[t].metric->metric;
+      report.config = tables[t].metric->toml;
+    } else if (*report.config != tables[t].metric->toml) {
+      report.missing.push_back(tables[t].path + " was scored with other constants than " +
+                               tables[0].path + ": the numbers do not compare.");
+    }
+  }
+  return report;
+}
+
+std::vector<ReportObject> LoadAll(const std::vector<std::string>& inputs,
+                                  const ReportSettings& settings, RunObserver* observer) {
+  std::vector<ReportObject> objects;
+  for (std::size_t group = 0; group < inputs.size(); ++group) {
+    const std::size_t left = settings.limit > 0 ? settings.limit - objects.size() : 0;
+    if (settings.limit > 0 && left == 0) break;
+    for (InputObject& input : LoadObjects({inputs[group]}, settings.threads,
+                                          observer->Phase("reading " + inputs[group]), left)) {
+      ReportObject object;
+      object.name = std::move(input.name);
+      object.group = group;
+      object.status = std::move(input.status);
+      object.shape.mesh = std::move(input.mesh);
+      if (!input.note.empty()) object.numbers.emplace_back("note", input.note);
+      objects.push_back(std::move(object));
+    }
+  }
+  return objects;
+}
+
+}  // namespace
+
+bool IsScoreTable(const std::string& path) {
+  if (fs::path(path).extension() != ".csv" || !fs::is_regular_file(path)) return false;
+  const CsvReader csv(path);
+  return csv.Column("object") && csv.Column("graspability");
+}
+
+Report ObjectsReport(const ReportSettings& settings, RunObserver* observer) {
+  Report report;
+  report.kind = "objects";
+  std::vector<Table> tables;
+  std::vector<std::string> inputs;
+  for (const std::string& input : settings.inputs) {
+    if (IsScoreTable(input)) {
+      tables.push_back(ReadTable(input, &report.missing));
+    } else {
+      inputs.push_back(input);
+    }
+  }
+  if (inputs.empty()) return TablesReport(settings, std::move(tables), std::move(report));
+  if (tables.size() > 1) {
+    throw InputError("objects with " + std::to_string(tables.size()) + " tables of scores",
+                     tables[1].path, "one table, that of these objects");
+  }
+  SavedMetric metric{settings.seed, settings.metric, MetricToml(settings.metric, settings.seed)};
+  if (!tables.empty() && tables[0].metric) metric = *tables[0].metric;
+  report.metric = metric.metric;
+  report.config = metric.toml;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    report.groups.push_back({"input-" + std::to_string(i), inputs[i]});
+  }
+  report.objects = LoadAll(inputs, settings, observer);
+  std::vector<std::uint64_t> streams(report.objects.size());
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    streams[i] = i;
+    if (tables.empty()) continue;
+    const ScoreRow* row = RowOf(report.objects[i].name, i, tables[0]);
+    if (row == nullptr) {
+      report.missing.push_back(report.objects[i].name + " has no row in " + tables[0].path + ".");
+    } else {
+      streams[i] = static_cast<std::uint64_t>(row - tables[0].rows.data());
+      for (LabelledText& extra : ExtrasOf(*row)) {
+        report.objects[i].numbers.push_back(std::move(extra));
+      }
+    }
+  }
+  ParallelFor(
+      std::ssize(report.objects), settings.threads,
+      [&](std::int64_t i) {
+        const auto slot = static_cast<std::size_t>(i);
+        ReportObject& object = report.objects[slot];
+        if (object.status != "ok") return;
+        const Graspability score =
+            EvaluateGraspability(object.shape.mesh, metric.metric, metric.seed, streams[slot]);
+        object.status = std::string(Name(score.status));
+        object.shape = ShapeOf(std::move(object.shape.mesh), score);
+      },
+      observer->Phase("scoring"));
+  return report;
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,64 @@
+#include "antigrasp/report/page/page.h"
+
+#include <algorithm>
+#include <array>
+
+#include "antigrasp/core/check.h"
+#include "antigrasp/report/page/base64.h"
+
+namespace antigrasp {
+
+std::string HtmlEscape(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string FillTemplate(std::string_view page_template, const std::string& title,
+                         const ReportPayload& payload) {
+  struct Marker {
+    std::string_view text;
+    std::string value;
+    std::size_t at = 0;
+  };
+  std::array<Marker, 3> markers = {Marker{"ANTIGRASP_TITLE", HtmlEscape(title)},
+                                   Marker{"\"ANTIGRASP_REPORT_JSON\"", payload.json},
+                                   Marker{"ANTIGRASP_BLOB_BASE64", Base64(payload.blob)}};
+  for (Marker& marker : markers) {
+    marker.at = page_template.find(marker.text);
+    AG_CHECK(marker.at != std::string_view::npos &&
+                 page_template.find(marker.text, marker.at + 1) == std::string_view::npos,
+             "every marker of the report's template is there once");
+  }
+  std::sort(markers.begin(), markers.end(),
+            [](const Marker& a, const Marker& b) { return a.at < b.at; });
+  std::string page;
+  std::size_t done = 0;
+  for (const Marker& marker : markers) {
+    page.append(page_template.substr(done, marker.at - done)).append(marker.value);
+    done = marker.at + marker.text.size();
+  }
+  return page.append(page_template.substr(done));
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "antigrasp/quality/metric_options.h"
+#include "antigrasp/report/page/report.h"
+
+namespace antigrasp {
+
+// What the command line asks of a report.
+struct ReportSettings {
+  std::vector<std::string> inputs;
+  MetricOptions metric;  // of objects that come without a metric of their own
+  std::uint64_t seed = 1;
+  int per_stage = 40;     // objects of every stage of a run
+  std::size_t limit = 0;  // objects in all, of other inputs; 0 = all
+  int threads = 0;
+};
+
+// The mesh with what EvaluateGraspability said about it.
+ReportShape ShapeOf(TriangleMesh mesh, const Graspability& score);
+
+// A number in a person's text: whole, or of four significant digits; "" for NaN.
+std::string NumberText(double value);
+
+// The seed and the metric's constants as `evaluate` and `perturb` write them beside their tables.
+struct SavedMetric {
+  std::uint64_t seed = 1;
+  MetricOptions metric;
+  std::string toml;
+};
+SavedMetric ReadSavedMetric(const std::string& path);  // InputError with file:line
+
+}  // namespace antigrasp

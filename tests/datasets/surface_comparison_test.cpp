@@ -1,0 +1,104 @@
+#include "antigrasp/datasets/surface_comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "antigrasp/core/rng.h"
+#include "tests/support/shapes.h"
+
+namespace antigrasp {
+namespace {
+
+using Meshes = std::vector<TriangleMesh>;
+
+// Boxes of random sides in [0.3, 1.5].
+Meshes Boxes(int count, std::uint64_t seed) {
+  RngStream rng(seed, "boxes");
+  Meshes meshes;
+  for (int i = 0; i < count; ++i) {
+    const double x = rng.Uniform(0.3, 1.5), y = rng.Uniform(0.3, 1.5), z = rng.Uniform(0.3, 1.5);
+    meshes.push_back(shapes::Box({x, y, z}));
+  }
+  return meshes;
+}
+
+SurfaceComparisonOptions Coarse(int threads = 0) {
+  SurfaceComparisonOptions options;
+  options.points = 512;
+  options.threads = threads;
+  return options;
+}
+
+TEST(CompareSurfaces, FindsThePermutedSetItself) {
+  const Meshes set = Boxes(20, 1);
+  Meshes permuted = set;
+  std::rotate(permuted.begin(), permuted.begin() + 7, permuted.end());
+  const SurfaceComparison same = CompareSurfaces(permuted, set, {}, Coarse());
+  EXPECT_EQ(same.sets.coverage, 1.0);
+  EXPECT_EQ(same.sets.nna, 0.0);
+  // As far as two samplings of the same shapes.
+  EXPECT_NEAR(same.sets.matching, same.reference.floor, 0.03 * same.reference.floor);
+  EXPECT_NEAR(same.spread.diversity, 1.0, 0.01);
+  EXPECT_NEAR(same.samples.vendi, same.reference.vendi, 0.3);
+  EXPECT_NEAR(same.samples.size, same.reference.size, 1e-12);
+  EXPECT_NEAR(same.samples.roughness, same.reference.roughness, 1e-9);
+  EXPECT_FALSE(same.memorisation.has_value());
+}
+
+TEST(CompareSurfaces, SeesOneShapeRepeated) {
+  const Meshes reference = Boxes(20, 1), repeated(20, reference[3]);
+  const SurfaceComparison found = CompareSurfaces(repeated, reference, {}, Coarse());
+  EXPECT_LE(found.sets.coverage, 0.1);
+  EXPECT_EQ(found.spread.samples.duplicates, 1.0);
+  EXPECT_LT(found.spread.diversity, 0.05);
+  EXPECT_NEAR(found.samples.vendi, 1.0, 0.15);  // chance, beyond the floors
+  EXPECT_GT(found.reference.vendi, 3.0);
+}
+
+TEST(CompareSurfaces, SeesSamplesCopiedFromTheTrainingShapes) {
+  const Meshes training = Boxes(40, 1), held_out = Boxes(20, 2), fresh = Boxes(20, 3);
+  const Meshes copied(training.begin(), training.begin() + 20);
+  const auto of = [&](const Meshes& samples) {
+    return *CompareSurfaces(samples, held_out, training, Coarse()).memorisation;
+  };
+  const Memorisation copies = of(copied), others = of(fresh);
+  EXPECT_EQ(copies.nearer, 1.0);
+  EXPECT_LT(copies.samples, 0.6 * copies.reference);
+  EXPECT_NEAR(others.nearer, 0.5, 0.3);
+  EXPECT_NEAR(others.samples, others.reference, 0.3 * others.reference);
+}
+
+TEST(CompareSurfaces, DoesNotChangeWhenAllMoveAlike) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  Meshes samples = Boxes(10, 1), reference = Boxes(10, 2);
+  const SurfaceComparison before = CompareSurfaces(samples, reference, {}, Coarse());
+  for (Meshes* set : {&samples, &reference}) {
+    for (TriangleMesh& mesh : *set) {
+      mesh = Transformed(shapes::Rotated(mesh, turn), 1.0, {0.5, -1, 0.25});
+    }
+  }
+  const SurfaceComparison after = CompareSurfaces(samples, reference, {}, Coarse());
+  EXPECT_EQ(after.sets.coverage, before.sets.coverage);
+  EXPECT_EQ(after.sets.nna, before.sets.nna);
+  EXPECT_NEAR(after.sets.matching, before.sets.matching, 1e-6);
+  EXPECT_NEAR(after.samples.vendi, before.samples.vendi, 1e-4);
+  EXPECT_NEAR(after.samples.roughness, before.samples.roughness, 1e-9);
+}
+
+TEST(CompareSurfaces, GivesTheSameBitsAtAnyThreadCount) {
+  const Meshes samples = Boxes(9, 1), reference = Boxes(9, 2), training = Boxes(5, 3);
+  const SurfaceComparison one = CompareSurfaces(samples, reference, training, Coarse(1));
+  const SurfaceComparison four = CompareSurfaces(samples, reference, training, Coarse(4));
+  EXPECT_EQ(one.sets.matching, four.sets.matching);
+  EXPECT_EQ(one.spread.samples.mean_distance, four.spread.samples.mean_distance);
+  EXPECT_EQ(one.samples.vendi, four.samples.vendi);
+  EXPECT_EQ(one.samples.roughness, four.samples.roughness);
+  EXPECT_EQ(one.samples.floor, four.samples.floor);
+  EXPECT_EQ(one.memorisation->samples, four.memorisation->samples);
+}
+
+}  // namespace
+}  // namespace antigrasp

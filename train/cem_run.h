@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "antigrasp/core/observer.h"
+#include "antigrasp/train/run_config.h"
+#include "antigrasp/train/run_folder.h"
+#include "antigrasp/train/statistics.h"
+
+namespace antigrasp {
+
+// What a finished run (and its control, if it had one) measured.
+struct RunResult {
+  std::vector<StageStatistics> stages;
+  std::vector<StageStatistics> control;
+};
+
+// The CEM + GAN algorithm (V-B, VI-C): train the GAN on the prior set, then repeatedly sample,
+// remesh, reject, score, keep the least graspable and retrain. Every file lands in `folder`, every
+// step of it can be interrupted and resumed with equal bytes on the CPU at equal threads.
+// InputError: the folder already holds a run, or the prior file is unusable. Interrupted: state
+// saved. RuntimeFailure: non-finite losses or no usable sample; the last checkpoint is intact.
+RunResult StartRun(const RunConfig& config, const std::filesystem::path& folder,
+                   RunObserver* observer);
+
+// Goes on where the folder's last checkpoint stands; a finished run only reports its numbers.
+RunResult ResumeRun(const std::filesystem::path& folder, RunObserver* observer);
+
+// The configuration the run in `folder` was started with. InputError when there is none.
+RunConfig ConfigOfRun(const std::filesystem::path& folder);
+
+}  // namespace antigrasp

@@ -1,0 +1,99 @@
+#include "antigrasp/train/run_config.h"
+
+#include "antigrasp/core/error.h"
+
+namespace antigrasp {
+
+void Bind(OptionTable* table, CemOptions* o) {
+  table->Add("cem.mode", &o->mode, {"gan", "latent"},
+             "what an episode adapts to the elites: the networks, or the distribution of z");
+  table->Add("cem.episodes", &o->episodes, 0, 1000, "resampling rounds after episode 0");
+  table->Add("cem.prior_iterations", &o->prior_iterations, 1, 1e8, "GAN updates in episode 0");
+  table->Add("cem.iterations", &o->iterations, 1, 1e8, "GAN updates in every later episode");
+  table->Add("cem.samples", &o->samples, 1, 1e6, "objects sampled per episode");
+  table->Add("cem.keep", &o->keep, 1, 1e6, "elites kept per episode");
+  table->Add("cem.variant", &o->variant, {"paper", "stratified"},
+             "elites: the least graspable of all, or of every cell of the prior set");
+  table->Add("cem.cells", &o->cells, 1, 1e5, "cells of the stratified variant");
+  table->Add("cem.step", &o->step, 1e-3, 1,
+             "latent mode: standard deviation of z around an elite's; 1 forgets the elites");
+  table->Add("cem.select", &o->select, {"graspability", "random"},
+             "keep the least graspable, or random ones (the control)");
+  table->Add("cem.restart", &o->restart, "fresh networks each episode instead of going on");
+  table->Add("cem.redistance", &o->redistance,
+             "train on the exact distances to the elites' meshes, not on the generator's values");
+  table->Add("cem.prior_fraction", &o->prior_fraction, 0, 10,
+             "prior shapes (latent mode: fresh z) mixed into the elites, as a share of them");
+  table->Add("cem.check_self_intersection", &o->check_self_intersection,
+             "test every mesh for self-intersection");
+  table->Add("cem.control", &o->control, "also run the random-keep control from episode 0");
+  table->Add("cem.prior_scored", &o->prior_scored, 0, 1e6,
+             "prior shapes scored as the reference of kappa; 0 = all");
+  table->Add("cem.compared", &o->compared, 2, 5000,
+             "shapes per side behind coverage and near-duplicates");
+  table->Add("cem.checkpoint_every", &o->checkpoint_every, 1, 1e8,
+             "GAN updates between checkpoints");
+}
+
+void Bind(OptionTable* table, RunConfig* c) {
+  table->Add("run.seed", &c->seed, "seed of every random stream");
+  table->Add("run.threads", &c->threads, 0, 1024, "threads; 0 = all");
+  table->Add("run.torch_threads", &c->torch_threads, 0, 1024,
+             "threads of LibTorch; 0 = run.threads; training repeats at the same number");
+  table->Add("run.device", &c->device, {}, "device of the networks: cpu, cuda, cuda:1");
+  table->Add("run.stl_count", &c->stl_count, 0, 10000, "least graspable objects exported as STL");
+  table->Add("run.stl_size_mm", &c->stl_size_mm, 1, 10000, "their largest extent, mm");
+  table->Add("run.start", &c->start, {},
+             "checkpoint or name of pretrained networks in place of training episode 0");
+  table->Add("run.fine_tune", &c->fine_tune,
+             "train the networks of run.start on in episode 0, cem.prior_iterations updates");
+  table->Add("prior.file", &c->prior_file, {}, "SDF file of the prior set; empty = make one");
+  table->Add("prior.kind", &c->prior.kind, PriorSetKinds(), "set to make");
+  table->Add("prior.count", &c->prior.count, 1, 1e6, "shapes to make");
+  table->Add("prior.seed", &c->prior.seed, "seed of the set");
+  Bind(table, &c->model);
+  Bind(table, &c->gan);
+  Bind(table, &c->cem);
+  Bind(table, &c->metric);
+}
+
+std::string ToToml(const RunConfig& config) {
+  RunConfig copy = config;
+  OptionTable table;
+  Bind(&table, &copy);
+  return table.Dump();
+}
+
+RunConfig FromToml(const std::string& toml, const std::string& origin) {
+  RunConfig config;
+  OptionTable table;
+  Bind(&table, &config);
+  table.ApplyText(toml, origin);
+  return config;
+}
+
+RunConfig NetworksFromToml(const std::string& toml, const std::string& origin) {
+  RunConfig config;
+  OptionTable table;
+  Bind(&table, &config);
+  int retired = 0;  // sized the mixture of z, which now has the size it was saved with
+  table.Add("model.components", &retired, 1, 1000, "");
+  table.ApplyKnown(toml, origin, "model.");
+  return config;
+}
+
+void Validate(const RunConfig& config, const std::string& origin) {
+  if (config.fine_tune && config.start.empty()) {
+    throw InputError("run.fine_tune without run.start", origin, "networks to start from (--from)");
+  }
+  if (config.cem.keep > config.cem.samples) {
+    throw InputError("cem.keep = " + std::to_string(config.cem.keep), origin,
+                     "at most cem.samples = " + std::to_string(config.cem.samples));
+  }
+  if (config.gan.batch % config.model.pack != 0) {
+    throw InputError("model.pack = " + std::to_string(config.model.pack), origin,
+                     "a divisor of gan.batch = " + std::to_string(config.gan.batch));
+  }
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,152 @@
+#include "antigrasp/train/run_output.h"
+
+#include <spdlog/spdlog.h>
+#include <torch/types.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/csv_writer.h"
+#include "antigrasp/core/rng.h"
+#include "antigrasp/mesh/fit.h"
+#include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/models/sdf_values.h"
+#include "antigrasp/render/contact_sheet.h"
+#include "antigrasp/train/elites.h"
+
+namespace antigrasp {
+namespace {
+
+std::string KappaText(const StageStatistics& row, const std::vector<StageStatistics>& rows) {
+  const StageStatistics* prior = FindStage(rows, -1);
+  if (row.stage < 0 || prior == nullptr) return "";
+  const MeanInterval kappa = Ratio(row.graspability, prior->graspability);
+  return fmt::format(", {:.2f} +-{:.2f} of the prior set", kappa.mean, kappa.half_width);
+}
+
+}  // namespace
+
+std::string StageName(int episode) {
+  return episode < 0 ? "prior set" : "episode " + std::to_string(episode);
+}
+
+std::string StageName(int episode, const std::string& doing) {
+  return StageName(episode) + ": " + doing;
+}
+
+LossRow RowOf(std::int64_t step, const StepReport& r, double largest_sigma) {
+  return {double(step),         r.loss_discriminator, r.loss_generator, r.gradient_discriminator,
+          r.gradient_generator, r.rate_discriminator, r.rate_generator, largest_sigma};
+}
+
+std::string LossesCsv(const std::vector<LossRow>& rows) {
+  CsvWriter csv({kLossColumns.begin(), kLossColumns.end()});
+  for (const LossRow& row : rows) {
+    for (const double value : row) csv.NumberOrGap(value);
+    csv.EndRow();
+  }
+  return csv.text();
+}
+
+std::string LossText(const StepReport& report) {
+  return fmt::format("L_D {:.2f}  L_G {:+.2f}", report.loss_discriminator, report.loss_generator);
+}
+
+std::vector<std::pair<std::string, double>> StageScalars(const StageStatistics& row,
+                                                         const std::vector<StageStatistics>& rows) {
+  const StageStatistics* prior = FindStage(rows, -1);
+  const double rejected = row.samples > 0 ? double(row.rejected()) / row.samples : 0.0;
+  std::vector<std::pair<std::string, double>> scalars = {
+      {"stage/graspability", row.graspability.mean},
+      {"stage/rejected", rejected},
+      {"stage/coverage", row.coverage},
+      {"stage/near_duplicates", row.duplicates},
+      {"stage/diversity", row.diversity},
+      {"stage/1-NNA", row.nna}};
+  if (prior != nullptr) {
+    scalars.emplace_back("stage/kappa", Ratio(row.graspability, prior->graspability).mean);
+  }
+  return scalars;
+}
+
+void LogStage(const StageStatistics& row, const std::vector<StageStatistics>& rows) {
+  const std::string name = row.stage < 0 ? "prior set" : "episode " + std::to_string(row.stage);
+  spdlog::info("{}: {} objects, {} rejected, graspability {:.5f} +-{:.5f}{}", name, row.samples,
+               row.rejected(), row.graspability.mean, row.graspability.half_width,
+               KappaText(row, rows));
+}
+
+void WarnIfCollapsed(const StageStatistics& row, const std::vector<StageStatistics>& rows) {
+  const StageStatistics* first = FindStage(rows, 0);
+  if (first != nullptr && row.coverage < 0.5 * first->coverage) {
+    spdlog::warn(
+        "the generator is collapsing: coverage {:.0f} % of the prior set, {:.0f} % in "
+        "episode 0",
+        100 * row.coverage, 100 * first->coverage);
+  }
+  if (row.duplicates > 0.2) {
+    spdlog::warn("the generator is collapsing: {:.0f} % of its samples are near-duplicates",
+                 100 * row.duplicates);
+  }
+}
+
+void WriteElites(const std::filesystem::path& path, const ScoredStage& scored,
+                 const std::vector<std::int64_t>& elites, int episode, const RunConfig& config) {
+  ShapeSet set;
+  set.kind = "elites";
+  set.seed = config.seed;
+  set.truncation = LargestDistance(config.model);
+  set.provenance = "antigrasp train, episode " + std::to_string(episode) + ", " +
+                   (config.cem.select == "random" ? "random samples" : "least graspable samples");
+  for (const std::int64_t i : elites) {
+    set.names.push_back("sample-" + std::to_string(i));
+    set.grids.push_back(GridOf(scored.values[i], config.model));
+  }
+  WriteShapeSet(path, set);
+}
+
+void WriteSampleSheet(const std::filesystem::path& path, const ScoredStage& scored,
+                      const RunConfig& config) {
+  constexpr std::size_t kColumns = 8, kRows = 4;
+  View view;
+  view.pixels = 160;
+  std::vector<std::vector<const TriangleMesh*>> rows;
+  std::size_t drawn = 0;
+  for (const auto& object : scored.objects) {
+    if (object.mesh.faces.empty() || drawn == kColumns * kRows) continue;
+    if (drawn++ % kColumns == 0) rows.emplace_back();
+    rows.back().push_back(&object.mesh);
+  }
+  if (drawn > 0) WritePng(path, ContactSheet(rows, view, config.threads));
+}
+
+void ExportLeastGraspable(const ScoredStage& scored, const RunConfig& config,
+                          const RunFolder& folder) {
+  if (config.stl_count == 0) return;
+  std::vector<std::int64_t> worst = LeastGraspable(scored.graspabilities, config.stl_count);
+  const auto value = [&](std::int64_t i) {
+    return scored.graspabilities[static_cast<std::size_t>(i)];
+  };
+  std::stable_sort(worst.begin(), worst.end(),
+                   [&](std::int64_t a, std::int64_t b) { return value(a) < value(b); });
+  MakeFolder(folder.Stl());
+  const std::uint64_t fresh = RngStream(config.seed, "rescore").NextU64();
+  CsvWriter csv({"file", "object", "graspability", "graspability_fresh_draws", "ci_low", "ci_high",
+                 "size_mm"});
+  for (std::size_t rank = 0; rank < worst.size(); ++rank) {
+    const std::int64_t i = worst[rank];
+    const TriangleMesh& mesh = scored.objects[static_cast<std::size_t>(i)].mesh;
+    const std::string name = fmt::format("adversarial_{:02d}.stl", rank + 1);
+    WriteMesh(folder.Stl() / name, FitToPlate(mesh, config.stl_size_mm));
+    const Graspability again =
+        EvaluateGraspability(mesh, config.metric, fresh, static_cast<std::uint64_t>(i));
+    csv.Text(name).Count(i).Numbers(
+        {value(i), again.value, again.ci_low, again.ci_high, config.stl_size_mm});
+    csv.EndRow();
+  }
+  WriteFileAtomic(folder.Stl() / "scores.csv", csv.text());
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,141 @@
+#include "antigrasp/train/stage.h"
+
+#include <torch/types.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/rng.h"
+#include "antigrasp/models/sdf_values.h"
+#include "antigrasp/quality/score_table.h"
+#include "antigrasp/train/prior_similarity.h"
+
+namespace antigrasp {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+void CompareWithPrior(const ScoredStage& scored, const torch::Tensor& prior, int compared,
+                      StageStatistics* row) {
+  std::vector<std::int64_t> valid;
+  for (std::size_t i = 0; i < scored.objects.size(); ++i) {
+    if (scored.objects[i].ok()) valid.push_back(static_cast<std::int64_t>(i));
+  }
+  const auto n = std::min<std::int64_t>({static_cast<std::int64_t>(valid.size()), prior.size(0),
+                                         static_cast<std::int64_t>(compared)});
+  if (n < 2) return;
+  valid.resize(static_cast<std::size_t>(n));
+  const SetSimilarity similarity = CompareSets(
+      scored.values.index_select(0, torch::tensor(valid, torch::kLong)), prior.slice(0, 0, n));
+  row->coverage = similarity.coverage;
+  row->nna = similarity.nna;
+  row->duplicates = similarity.duplicates;
+  row->diversity = similarity.diversity;
+}
+
+}  // namespace
+
+SdfGrid GridOf(const torch::Tensor& value, const ModelOptions& model) {
+  const torch::Tensor distances = Distances(value.to(torch::kFloat), model).contiguous();
+  SdfGrid grid = UnitCubeGrid(model.resolution);
+  const float* data = distances.data_ptr<float>();
+  grid.values.assign(data, data + distances.numel());
+  return grid;
+}
+
+torch::Tensor NetworkValuesOf(const ShapeSet& set, const ModelOptions& model,
+                              const std::string& origin) {
+  const std::int64_t n = model.resolution;
+  const auto count = static_cast<std::int64_t>(set.grids.size());
+  if (count == 0) throw InputError("no shapes", origin, "an SDF file with at least one shape");
+  torch::Tensor values = torch::empty({count, 1, n, n, n}, torch::kHalf);
+  for (std::int64_t i = 0; i < count; ++i) {
+    const SdfGrid& grid = set.grids[static_cast<std::size_t>(i)];
+    if (grid.n != model.resolution) {
+      throw InputError("grids of " + std::to_string(grid.n) + "^3", origin,
+                       "grids of " + std::to_string(n) + "^3");
+    }
+    const torch::Tensor distances = torch::from_blob(const_cast<float*>(grid.values.data()),
+                                                     {1, n, n, n}, torch::kFloat);  // only read
+    const torch::Tensor network = NetworkValues(distances, model);
+    if (!network.isfinite().all().item<bool>()) {
+      throw InputError("non-finite distances in shape " + std::to_string(i), origin,
+                       "finite distances");
+    }
+    values[i].copy_(network);
+  }
+  return values;
+}
+
+std::uint64_t StageSeed(const RunConfig& config, int episode) {
+  return RngStream(config.seed, "stage", static_cast<std::uint64_t>(episode)).NextU64();
+}
+
+ScoredSample ScoreSample(const torch::Tensor& value, std::int64_t index, const RunConfig& config) {
+  const RemeshOptions remesh{.check_self_intersection = config.cem.check_self_intersection};
+  ScoredSample sample{Remesh(GridOf(value, config.model), remesh), {}};
+  if (sample.object.ok()) {
+    sample.score = EvaluateGraspability(sample.object.mesh, config.metric, config.seed,
+                                        static_cast<std::uint64_t>(index));
+  }
+  return sample;
+}
+
+ScoredStage ScoreStage(const torch::Tensor& values, const RunConfig& config,
+                       const std::string& name, RunObserver* observer) {
+  ScoredStage scored;
+  scored.values = values;
+  const auto count = static_cast<std::size_t>(values.size(0));
+  scored.objects.resize(count);
+  scored.scores.resize(count);
+  scored.graspabilities.assign(count, kNaN);
+  ParallelFor(
+      values.size(0), config.threads,
+      [&](std::int64_t i) {
+        const auto slot = static_cast<std::size_t>(i);
+        ScoredSample sample = ScoreSample(values[i], i, config);
+        scored.objects[slot] = std::move(sample.object);
+        scored.scores[slot] = std::move(sample.score);
+        if (scored.scores[slot].status != GraspabilityStatus::kNotEvaluable) {
+          scored.graspabilities[slot] = scored.scores[slot].value;
+        }
+      },
+      observer->Phase(name));
+  return scored;
+}
+
+StageStatistics Summarize(int stage, const ScoredStage& scored, const torch::Tensor& prior,
+                          const RunConfig& config) {
+  StageStatistics row;
+  row.stage = stage;
+  row.samples = static_cast<int>(scored.objects.size());
+  for (const RemeshResult& object : scored.objects) {
+    ++row.by_status[static_cast<std::size_t>(object.status)];
+  }
+  for (const Graspability& score : scored.scores) {
+    row.scored += score.status != GraspabilityStatus::kNotEvaluable ? 1 : 0;
+    row.without_grasps += score.status == GraspabilityStatus::kNoGrasps ? 1 : 0;
+  }
+  row.graspability = MeanWithInterval(scored.graspabilities);
+  row.elite_threshold = kNaN;
+  row.coverage = row.nna = row.duplicates = row.diversity = kNaN;
+  if (stage >= 0) CompareWithPrior(scored, prior, config.cem.compared, &row);
+  return row;
+}
+
+std::string StageScoresCsv(const ScoredStage& scored) {
+  std::vector<ScoreRow> rows;
+  for (std::size_t i = 0; i < scored.objects.size(); ++i) {
+    const bool ok = scored.objects[i].ok();
+    rows.push_back(
+        {std::to_string(i),
+         std::string(ok ? Name(scored.scores[i].status) : Name(scored.objects[i].status)),
+         SummaryOf(scored.scores[i])});
+  }
+  return ScoresCsv(rows);
+}
+
+}  // namespace antigrasp

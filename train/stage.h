@@ -1,0 +1,56 @@
+#pragma once
+
+#include <torch/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "antigrasp/core/observer.h"
+#include "antigrasp/quality/graspability.h"
+#include "antigrasp/sdf/remesh.h"
+#include "antigrasp/train/run_config.h"
+#include "antigrasp/train/statistics.h"
+
+namespace antigrasp {
+
+// The objects of one stage, all scored: item i of each vector is sample i.
+struct ScoredStage {
+  torch::Tensor values;                // network values [N, 1, n, n, n]
+  std::vector<RemeshResult> objects;   // meshes and the reason a grid was rejected
+  std::vector<Graspability> scores;    // kNotEvaluable for rejected grids
+  std::vector<double> graspabilities;  // NaN for rejected grids
+};
+
+// One sample remeshed and, if it is a usable object, scored. Its random draws depend on
+// (config.seed, index) only. `value`: network values [1, n, n, n].
+struct ScoredSample {
+  RemeshResult object;
+  Graspability score;  // kNotEvaluable for a rejected grid
+};
+ScoredSample ScoreSample(const torch::Tensor& value, std::int64_t index, const RunConfig& config);
+
+// The seed of the latent vectors of an episode's samples.
+std::uint64_t StageSeed(const RunConfig& config, int episode);
+
+// Remeshes and scores network values (paper III-B, VI-C), value i as sample i: stages compare with
+// common random numbers.
+ScoredStage ScoreStage(const torch::Tensor& values, const RunConfig& config,
+                       const std::string& name, RunObserver* observer);
+
+// Counts, mean graspability and similarity to the prior set (network values).
+StageStatistics Summarize(int stage, const ScoredStage& scored, const torch::Tensor& prior,
+                          const RunConfig& config);
+
+// scores.csv: one row per sample, no wall time in it, so that equal runs write equal bytes.
+std::string StageScoresCsv(const ScoredStage& scored);
+
+// A grid of distances from one sample's network values.
+SdfGrid GridOf(const torch::Tensor& value, const ModelOptions& model);
+
+// Network values [N, 1, n, n, n] float16 of a shape set's grids. InputError for grids of another
+// resolution than the model's.
+torch::Tensor NetworkValuesOf(const ShapeSet& set, const ModelOptions& model,
+                              const std::string& origin);
+
+}  // namespace antigrasp
