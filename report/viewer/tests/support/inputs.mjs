@@ -5,7 +5,7 @@ import { fileURLToPath } from "node:url";
 import { promisify } from "node:util";
 import { folder } from "./browser.mjs";
 
-const SMOKE = fileURLToPath(new URL("../../../configs/smoke.toml", import.meta.url));
+const SMOKE = fileURLToPath(new URL("../../../../configs/smoke.toml", import.meta.url));
 
 async function antigrasp(...args) {
   const binary = process.env.ANTIGRASP_BINARY;
