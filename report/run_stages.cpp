@@ -79,14 +79,13 @@ std::vector<ScoreRow> ReadStageScores(const fs::path& path) {
 ReportLosses ReadLosses(const fs::path& path, int episode, bool control) {
   ReportLosses losses{episode, control, {}};
   CsvReader csv(path);
-  std::vector<std::size_t> columns;
-  for (const char* name : kLossColumns) {
-    columns.push_back(csv.RequiredColumn(name));
+  csv.RequiredColumn("step");
+  for (const std::string& name : csv.names()) {  // beside it, whatever the model named
     losses.columns.emplace_back(name, std::vector<double>());
   }
   while (csv.Next()) {
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      losses.columns[c].second.push_back(csv.NumberOrGap(columns[c]));
+    for (std::size_t c = 0; c < losses.columns.size(); ++c) {
+      losses.columns[c].second.push_back(csv.NumberOrGap(c));
     }
   }
   return losses;

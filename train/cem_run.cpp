@@ -49,7 +49,8 @@ void RequireSameModel(const RunConfig& config) {
 }
 
 // The control begins where the run it belongs to ended episode 0: same networks, same prior.
-void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder& control) {
+void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder& control,
+                 const ShapeModelMaker& make) {
   RunConfig forked = config;
   forked.cem.select = "random";
   forked.cem.control = false;
@@ -58,21 +59,23 @@ void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder&
   WriteFileAtomic(control.Prior(), ReadFile(run.Prior()));
   Checkpoint checkpoint = ReadCheckpoint(run.EpisodeCheckpoint(0));
   checkpoint.config = ToToml(forked);
-  GanTrainer trainer = MakeTrainer(forked);
-  ReadNetworks(run.EpisodeCheckpoint(0), [&](auto* archive) { trainer.Load(archive); });
-  WriteCheckpoint(control.Latest(), checkpoint, [&](auto* archive) { trainer.Save(archive); });
+  const std::unique_ptr<ShapeModel> model = make(forked);
+  ReadNetworks(run.EpisodeCheckpoint(0), [&](auto* archive) { model->Load(archive); });
+  WriteCheckpoint(control.Latest(), checkpoint, [&](auto* archive) { model->Save(archive); });
   // Last: a folder with a configuration holds a run.
   WriteFileAtomic(control.Config(), checkpoint.config);
 }
 
-RunResult Finish(const RunConfig& config, const RunFolder& folder, ProvenanceRecorder* recorder) {
+RunResult Finish(const RunConfig& config, const RunFolder& folder, ProvenanceRecorder* recorder,
+                 const ShapeModelMaker& make) {
   RunResult result;
-  result.stages = RunEpisodes(config, folder, recorder);
+  result.stages = RunEpisodes(config, folder, make(config).get(), recorder);
   if (config.cem.control) {
     const RunFolder control{folder.Control()};
-    if (!control.HoldsARun()) ForkControl(config, folder, control);
+    if (!control.HoldsARun()) ForkControl(config, folder, control, make);
     spdlog::info("control run: the same retraining on elites drawn at random");
-    result.control = RunEpisodes(ConfigOfRun(control.root), control, recorder);
+    const RunConfig forked = ConfigOfRun(control.root);
+    result.control = RunEpisodes(forked, control, make(forked).get(), recorder);
   }
   recorder->Finish();
   return result;
@@ -86,7 +89,8 @@ RunConfig ConfigOfRun(const fs::path& folder) {
   return FromToml(ReadFile(run.Config()), run.Config().string());
 }
 
-RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver* observer) {
+RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver* observer,
+                   const ShapeModelMaker& make) {
   const RunFolder run{folder};
   if (run.HoldsARun()) {
     throw InputError("a run is already there", folder.string(),
@@ -94,21 +98,21 @@ RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver*
   }
   Validate(config, "configuration");
   RequireSameModel(config);
-  const GanTrainer probe = MakeTrainer(config);  // refuses a device that is not there, first
+  make(config);  // refuses a device that is not there, first
   ProvenanceRecorder recorder(run, ProvenanceNow(config), observer);
   const ShapeSet prior = PriorOf(config, &recorder);
   NetworkValuesOf(prior, config.model, config.prior_file);  // refuses an unusable set, too
   MakeFolder(folder);
   WriteShapeSet(run.Prior(), prior);
   WriteFileAtomic(run.Config(), ToToml(config));
-  return Finish(config, run, &recorder);
+  return Finish(config, run, &recorder, make);
 }
 
-RunResult ResumeRun(const fs::path& folder, RunObserver* observer) {
+RunResult ResumeRun(const fs::path& folder, RunObserver* observer, const ShapeModelMaker& make) {
   const RunFolder run{folder};
   const RunConfig config = ConfigOfRun(folder);
   ProvenanceRecorder recorder(run, ReadProvenance(run), observer);
-  return Finish(config, run, &recorder);
+  return Finish(config, run, &recorder, make);
 }
 
 }  // namespace antigrasp

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "antigrasp/core/observer.h"
+#include "antigrasp/train/episode_loop.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_folder.h"
 #include "antigrasp/train/statistics.h"
@@ -18,15 +19,18 @@ struct RunResult {
 };
 
 // The CEM + GAN algorithm (V-B, VI-C): train the GAN on the prior set, then repeatedly sample,
-// remesh, reject, score, keep the least graspable and retrain. Every file lands in `folder`, every
-// step of it can be interrupted and resumed with equal bytes on the CPU at equal threads.
+// remesh, reject, score, keep the least graspable and retrain. `make` puts another shape model in
+// the GAN's place. Every file lands in `folder`, every step of it can be interrupted and resumed
+// with equal bytes on the CPU at equal threads.
 // InputError: the folder already holds a run, or the prior file is unusable. Interrupted: state
 // saved. RuntimeFailure: non-finite losses or no usable sample; the last checkpoint is intact.
 RunResult StartRun(const RunConfig& config, const std::filesystem::path& folder,
-                   RunObserver* observer);
+                   RunObserver* observer, const ShapeModelMaker& make = MakeGan);
 
 // Goes on where the folder's last checkpoint stands; a finished run only reports its numbers.
-RunResult ResumeRun(const std::filesystem::path& folder, RunObserver* observer);
+// `make`: as the run was started with.
+RunResult ResumeRun(const std::filesystem::path& folder, RunObserver* observer,
+                    const ShapeModelMaker& make = MakeGan);
 
 // The configuration the run in `folder` was started with. InputError when there is none.
 RunConfig ConfigOfRun(const std::filesystem::path& folder);

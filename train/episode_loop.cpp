@@ -5,17 +5,17 @@
 #include <torch/types.h>
 
 #include <chrono>
-#include <cmath>
 #include <optional>
+#include <utility>
 
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
-#include "antigrasp/core/format.h"
+#include "antigrasp/train/cem_loop.h"
+#include "antigrasp/train/gan_model.h"
 #include "antigrasp/train/run_output.h"
 #include "antigrasp/train/scalar_log.h"
-#include "antigrasp/train/selection.h"
 #include "antigrasp/train/torch_threads.h"
 
 namespace antigrasp {
@@ -25,159 +25,136 @@ namespace fs = std::filesystem;
 
 constexpr int kRecordEvery = 10;  // updates between rows of losses.csv
 
-// The state of section V-B's loop between two lines of it.
-class EpisodeLoop {
+// A CemLoop that keeps its state and what it found in a folder.
+class FolderLoop {
  public:
-  EpisodeLoop(const RunConfig& config, const RunFolder& folder, RunObserver* observer);
+  FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeModel* model,
+             RunObserver* observer);
   std::vector<StageStatistics> Run();
 
  private:
   void Restore();
+  void Resume();
   void ScorePrior();
   void TrainEpisode();
   void TrainUpdates();
-  StepReport TrainStep();
-  void TrainOn(const torch::Tensor& shapes);
-  torch::Tensor SampleStage();
-  Selection Select(const ScoredStage& scored) const;
-  void Record(const ScoredStage& scored, const Selection& selection);
-  void BeginEpisode(int episode, const ScoredStage& scored, const Selection& selection);
+  void TrainStep();
+  Episode FinishEpisode();
+  void Record(const Episode& episode);
+  void BeginNext(const Episode& episode);
   void Save(const fs::path& path, bool finished = false) const;
-  int episode() const { return trainer_.episode(); }
-  std::int64_t UpdatesSoFar() const;  // over all episodes
+  int episode() const { return model_->episode(); }
   void LogScalars(const LossRow& row, double updates_per_second);
 
   const RunConfig& config_;
   const RunFolder& folder_;
+  ShapeModel* model_;
   RunObserver* observer_;
-  GanTrainer trainer_;
-  torch::Tensor prior_;  // network values of the prior set, float16
-  EliteSelector selector_;
-  torch::Tensor shapes_;            // what the current episode trains on, float16
-  torch::Tensor shapes_on_device_;  // the same where the networks are
+  CemLoop loop_;
+  const std::vector<std::string> scalars_;  // their names
   std::vector<LossRow> losses_;
   std::optional<ScalarLog> log_;
-  std::vector<StageStatistics> rows_;
   bool finished_ = false;
 };
 
-EpisodeLoop::EpisodeLoop(const RunConfig& config, const RunFolder& folder, RunObserver* observer)
+FolderLoop::FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeModel* model,
+                       RunObserver* observer)
     : config_(config),
       folder_(folder),
+      model_(model),
       observer_(observer),
-      trainer_(MakeTrainer(config)),
-      prior_(NetworkValuesOf(ReadShapeSet(folder.Prior()), config.model, folder.Prior().string())),
-      selector_(config, prior_) {
-  TrainOn(prior_);
-}
+      loop_(config, model,
+            NetworkValuesOf(ReadShapeSet(folder.Prior()), config.model, folder.Prior().string()),
+            GraspabilityScorer(config, observer), observer),
+      scalars_(model->ScalarNames()) {}
 
-void EpisodeLoop::TrainOn(const torch::Tensor& shapes) {
-  shapes_ = shapes;
-  shapes_on_device_ = shapes.to(trainer_.device());
-}
-
-std::vector<StageStatistics> EpisodeLoop::Run() {
+std::vector<StageStatistics> FolderLoop::Run() {
   Restore();
-  if (finished_) return rows_;
+  if (finished_) return loop_.rows();
   MakeFolder(folder_.Events().parent_path());
-  log_.emplace(folder_.Events(), UpdatesSoFar());
-  if (rows_.empty()) ScorePrior();
+  log_.emplace(folder_.Events(), loop_.UpdatesSoFar());
+  if (loop_.rows().empty()) ScorePrior();
   while (true) {
-    TrainEpisode();             // theta: the GAN on the shapes
-    const ScoredStage scored =  // x ~ p_theta, g_gamma(x, Q)
-        ScoreStage(SampleStage(), config_, StageName(episode(), "scoring"), observer_);
-    const Selection selection = Select(scored);  // the rare event: lowest g
-    Record(scored, selection);
-    if (episode() == config_.cem.episodes) {
-      ExportLeastGraspable(scored, config_, folder_);
+    TrainEpisode();
+    const Episode finished = FinishEpisode();
+    Record(finished);
+    if (loop_.last()) {
+      ExportLeastGraspable(finished.scored, config_, folder_);
       Save(folder_.Latest(), /*finished=*/true);
-      return rows_;
+      return loop_.rows();
     }
-    BeginEpisode(episode() + 1, scored, selection);
+    BeginNext(finished);
   }
 }
 
-void EpisodeLoop::Restore() {
-  if (!fs::exists(folder_.Latest())) {
-    if (config_.start.empty()) {
-      trainer_.BeginEpisode(0, config_.cem.prior_iterations, /*restart_networks=*/true);
-    } else {
-      ReadNetworks(FindNetworks(config_.start),
-                   [&](auto* archive) { trainer_.LoadNetworks(archive); });
-      if (config_.fine_tune) {
-        trainer_.BeginEpisode(0, config_.cem.prior_iterations, /*restart_networks=*/false);
-      } else {
-        trainer_.BeginFixedEpisode(0, trainer_.latent());
-      }
-    }
+void FolderLoop::Restore() {
+  if (fs::exists(folder_.Latest())) {
+    Resume();
     return;
   }
+  if (!config_.start.empty()) {
+    ReadNetworks(FindNetworks(config_.start),
+                 [&](auto* archive) { model_->LoadNetworks(archive); });
+  }
+  loop_.Begin();
+}
+
+void FolderLoop::Resume() {
+  const std::string path = folder_.Latest().string();
   const Checkpoint checkpoint = ReadCheckpoint(folder_.Latest());
-  ReadNetworks(folder_.Latest(), [&](auto* archive) { trainer_.Load(archive); });
-  TrainOn(checkpoint.shapes);
-  rows_ = StatisticsFromCsv(checkpoint.statistics, folder_.Latest().string());
+  ReadNetworks(folder_.Latest(), [&](auto* archive) { model_->Load(archive); });
+  loop_.GoOn(checkpoint.shapes, StatisticsFromCsv(checkpoint.statistics, path));
   finished_ = checkpoint.finished;
   const torch::Tensor losses = checkpoint.losses.contiguous();
-  if (losses.dim() != 2 || losses.size(1) != static_cast<std::int64_t>(kLossColumns.size())) {
-    throw InputError("losses of another shape", folder_.Latest().string(),
-                     "a checkpoint of this version");
+  if (losses.dim() != 2 || losses.size(1) != std::ssize(scalars_) + 1) {
+    throw InputError("losses of another shape", path, "a checkpoint of this version");
   }
   for (std::int64_t i = 0; i < losses.size(0); ++i) {
-    LossRow row;
-    std::copy_n(losses[i].data_ptr<double>(), row.size(), row.begin());
-    losses_.push_back(row);
+    const double* row = losses[i].data_ptr<double>();
+    losses_.emplace_back(row, row + losses.size(1));
   }
   if (!finished_) {
     spdlog::info("resuming {} at episode {}, update {} of {}", folder_.root.string(), episode(),
-                 trainer_.step(), trainer_.iterations());
+                 model_->step(), model_->iterations());
   }
 }
 
-void EpisodeLoop::ScorePrior() {
-  const std::int64_t all = prior_.size(0);
-  const std::int64_t scored_count =
-      config_.cem.prior_scored == 0 ? all : std::min<std::int64_t>(all, config_.cem.prior_scored);
-  const ScoredStage scored =
-      ScoreStage(prior_.slice(0, 0, scored_count), config_, "scoring the prior set", observer_);
-  rows_.push_back(Summarize(-1, scored, prior_, config_));
-  if (rows_[0].graspability.count == 0) {
-    throw InputError("no usable shape in the prior set", folder_.Prior().string(),
-                     "shapes that remesh to one closed solid");
-  }
+void FolderLoop::ScorePrior() {
+  const ScoredStage scored = loop_.ScorePrior(folder_.Prior().string());
   WriteFileAtomic(folder_.PriorScores(), StageScoresCsv(scored));
-  LogStage(rows_.back(), rows_);
+  LogStage(loop_.rows().back(), loop_.rows());
 }
 
-void EpisodeLoop::TrainEpisode() {
-  if (trainer_.step() < trainer_.iterations()) TrainUpdates();
+void FolderLoop::TrainEpisode() {
+  if (!loop_.trained()) TrainUpdates();
   MakeFolder(folder_.Episode(episode()));
   Save(folder_.EpisodeCheckpoint(episode()));
   Save(folder_.Latest());
 }
 
-void EpisodeLoop::TrainUpdates() {
+void FolderLoop::TrainUpdates() {
   using Clock = std::chrono::steady_clock;
   const ProgressFn progress = observer_->Phase(StageName(episode(), "training"));
   Clock::time_point recorded = Clock::now();
-  while (trainer_.step() < trainer_.iterations()) {
-    const StepReport report = TrainStep();
-    if (trainer_.step() % kRecordEvery == 0) {
-      losses_.push_back(RowOf(trainer_.step(), report, trainer_.LargestSigma()));
-      observer_->Detail(LossText(report));
+  while (!loop_.trained()) {
+    TrainStep();
+    if (model_->step() % kRecordEvery == 0) {
+      losses_.push_back(RowOf(model_->step(), model_->Scalars()));
+      observer_->Detail(model_->ScalarText());
       const std::chrono::duration<double> passed = Clock::now() - recorded;
       recorded = Clock::now();
       LogScalars(losses_.back(), kRecordEvery / passed.count());
     }
     const bool stop = observer_->StopRequested();
-    if (stop || trainer_.step() % config_.cem.checkpoint_every == 0) Save(folder_.Latest());
+    if (stop || model_->step() % config_.cem.checkpoint_every == 0) Save(folder_.Latest());
     if (stop) throw Interrupted();
-    progress(trainer_.step(), trainer_.iterations());
+    progress(model_->step(), model_->iterations());
   }
 }
 
-StepReport EpisodeLoop::TrainStep() {
+void FolderLoop::TrainStep() {
   try {
-    return trainer_.Step(shapes_on_device_);
+    loop_.TrainStep();
   } catch (const RuntimeFailure& failure) {
     if (!fs::exists(folder_.Latest())) throw;
     throw RuntimeFailure(std::string(failure.what()) + "; the last good state is in " +
@@ -185,105 +162,71 @@ StepReport EpisodeLoop::TrainStep() {
   }
 }
 
-torch::Tensor EpisodeLoop::SampleStage() {
-  constexpr std::int64_t kChunk = 64;
-  const ProgressFn progress = observer_->Phase(StageName(episode(), "sampling"));
-  const std::int64_t count = config_.cem.samples;
-  std::vector<torch::Tensor> chunks;
-  for (std::int64_t first = 0; first < count; first += kChunk) {
-    chunks.push_back(
-        trainer_.Sample(StageSeed(config_, episode()), first, std::min(kChunk, count - first)));
-    progress(std::min(first + kChunk, count), count);
-  }
-  return torch::cat(chunks);
-}
-
-Selection EpisodeLoop::Select(const ScoredStage& scored) const {
-  Selection selection = selector_.Select(scored, episode());
-  const std::size_t usable = selection.elites.size();
-  if (usable == 0) {
-    throw RuntimeFailure("episode " + std::to_string(episode()) + ": none of " +
-                         std::to_string(config_.cem.samples) +
-                         " samples is a usable object; the networks of that episode are in " +
+Episode FolderLoop::FinishEpisode() {
+  try {
+    return loop_.Finish();
+  } catch (const RuntimeFailure& failure) {
+    throw RuntimeFailure(std::string(failure.what()) + "; the networks of that episode are in " +
                          folder_.Latest().string());
   }
-  if (static_cast<std::int64_t>(usable) < config_.cem.keep && config_.cem.variant == "paper") {
-    spdlog::warn("only {} of {} samples are usable: fewer elites than cem.keep = {}", usable,
+}
+
+void FolderLoop::Record(const Episode& finished) {
+  const std::vector<StageStatistics>& rows = loop_.rows();
+  const std::vector<std::int64_t>& elites = finished.selection.elites;
+  if (std::ssize(elites) < config_.cem.keep && config_.cem.variant == "paper") {
+    spdlog::warn("only {} of {} samples are usable: fewer elites than cem.keep = {}", elites.size(),
                  config_.cem.samples, config_.cem.keep);
   }
-  return selection;
-}
-
-void EpisodeLoop::Record(const ScoredStage& scored, const Selection& selection) {
-  StageStatistics row = Summarize(episode(), scored, prior_, config_);
-  for (const std::int64_t i : selection.elites) {
-    const double value = scored.graspabilities[static_cast<std::size_t>(i)];
-    row.elite_threshold = std::fmax(row.elite_threshold, value);
-  }
-  rows_.push_back(row);
-  WriteFileAtomic(folder_.Episode(episode()) / "scores.csv", StageScoresCsv(scored));
-  WriteFileAtomic(folder_.Episode(episode()) / "losses.csv", LossesCsv(losses_));
-  WriteFileAtomic(folder_.Statistics(), StatisticsToCsv(rows_));
-  WriteElites(folder_.Episode(episode()) / "elites.h5", scored, selection.elites, episode(),
+  WriteFileAtomic(folder_.Episode(episode()) / "scores.csv", StageScoresCsv(finished.scored));
+  WriteFileAtomic(folder_.Episode(episode()) / "losses.csv", LossesCsv(scalars_, losses_));
+  WriteFileAtomic(folder_.Statistics(), StatisticsToCsv(rows));
+  WriteElites(folder_.Episode(episode()) / "elites.h5", finished.scored, elites, episode(),
               config_);
-  WriteSampleSheet(folder_.Episode(episode()) / "samples.png", scored, config_);
-  log_->Add(UpdatesSoFar(), StageScalars(row, rows_));
-  LogStage(row, rows_);
-  WarnIfCollapsed(row, rows_);
+  WriteSampleSheet(folder_.Episode(episode()) / "samples.png", finished.scored, config_);
+  log_->Add(loop_.UpdatesSoFar(), StageScalars(finished.row, rows));
+  LogStage(finished.row, rows);
+  WarnIfCollapsed(finished.row, rows);
 }
 
-void EpisodeLoop::BeginEpisode(int episode, const ScoredStage& scored, const Selection& selection) {
+void FolderLoop::BeginNext(const Episode& finished) {
   losses_.clear();
-  if (config_.cem.mode == "latent") {
-    const torch::Tensor z =
-        trainer_.Latents(StageSeed(config_, trainer_.episode()), 0, config_.cem.samples)
-            .index_select(0, torch::tensor(selection.elites, torch::kLong));
-    trainer_.BeginFixedEpisode(episode,
-                               AroundElites(z, config_.cem.step, config_.cem.prior_fraction));
-  } else {
-    TrainOn(selector_.TrainingSet(scored, selection));
-    trainer_.BeginEpisode(episode, config_.cem.iterations, config_.cem.restart);
-  }
+  loop_.Next(finished);
   Save(folder_.Latest());
 }
 
-std::int64_t EpisodeLoop::UpdatesSoFar() const {
-  const bool trained = config_.start.empty() || config_.fine_tune;
-  const std::int64_t first = trained ? config_.cem.prior_iterations : 0;
-  const std::int64_t later = config_.cem.mode == "latent" ? 0 : config_.cem.iterations;
-  return (episode() == 0 ? 0 : first + (episode() - 1LL) * later) + trainer_.step();
-}
-
-void EpisodeLoop::LogScalars(const LossRow& row, double updates_per_second) {
+void FolderLoop::LogScalars(const LossRow& row, double updates_per_second) {
   std::vector<std::pair<std::string, double>> scalars = {
       {"training/updates_per_second", updates_per_second}};
-  for (std::size_t i = 1; i < row.size(); ++i) {
-    scalars.emplace_back("training/" + std::string(kLossColumns[i]), row[i]);
+  for (std::size_t i = 0; i < scalars_.size(); ++i) {
+    scalars.emplace_back("training/" + scalars_[i], row[i + 1]);
   }
-  log_->Add(UpdatesSoFar(), scalars);
+  log_->Add(loop_.UpdatesSoFar(), scalars);
 }
 
-void EpisodeLoop::Save(const fs::path& path, bool finished) const {
+void FolderLoop::Save(const fs::path& path, bool finished) const {
   Checkpoint checkpoint;
   checkpoint.config = ToToml(config_);
-  checkpoint.statistics = StatisticsToCsv(rows_);
-  checkpoint.shapes = shapes_;
+  checkpoint.statistics = StatisticsToCsv(loop_.rows());
+  checkpoint.shapes = loop_.shapes();
   checkpoint.finished = finished;
-  const auto columns = static_cast<std::int64_t>(kLossColumns.size());
-  checkpoint.losses =
-      torch::zeros({static_cast<std::int64_t>(losses_.size()), columns}, torch::kDouble);
+  checkpoint.losses = torch::zeros({std::ssize(losses_), std::ssize(scalars_) + 1}, torch::kDouble);
   for (std::size_t i = 0; i < losses_.size(); ++i) {
     double* row = checkpoint.losses[static_cast<std::int64_t>(i)].data_ptr<double>();
     std::copy(losses_[i].begin(), losses_[i].end(), row);
   }
-  WriteCheckpoint(path, checkpoint, [&](auto* archive) { trainer_.Save(archive); });
+  WriteCheckpoint(path, checkpoint, [&](auto* archive) { model_->Save(archive); });
 }
 
 }  // namespace
 
 std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolder& folder,
-                                         RunObserver* observer) {
-  return EpisodeLoop(config, folder, observer).Run();
+                                         ShapeModel* model, RunObserver* observer) {
+  return FolderLoop(config, folder, model, observer).Run();
+}
+
+std::unique_ptr<ShapeModel> MakeGan(const RunConfig& config) {
+  return std::make_unique<GanModel>(MakeTrainer(config));
 }
 
 GanTrainer MakeTrainer(const RunConfig& config) {

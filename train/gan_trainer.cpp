@@ -207,6 +207,7 @@ GanTrainer::GanTrainer(const ModelOptions& model, const GanOptions& options, std
   BeginEpisode(0, 1, false);
 }
 
+GanTrainer::GanTrainer(GanTrainer&& other) noexcept = default;
 GanTrainer::~GanTrainer() = default;
 
 void GanTrainer::BeginEpisode(int episode, std::int64_t iterations, bool restart_networks) {

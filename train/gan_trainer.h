@@ -30,6 +30,7 @@ class GanTrainer {
  public:
   GanTrainer(const ModelOptions& model, const GanOptions& options, std::uint64_t seed,
              torch::Device device);
+  GanTrainer(GanTrainer&& other) noexcept;
   ~GanTrainer();
 
   // Begins an episode: Adam's moments and the average restart; networks go on from where they are,

@@ -36,22 +36,21 @@ std::string StageName(int episode, const std::string& doing) {
   return StageName(episode) + ": " + doing;
 }
 
-LossRow RowOf(std::int64_t step, const StepReport& r, double largest_sigma) {
-  return {double(step),         r.loss_discriminator, r.loss_generator, r.gradient_discriminator,
-          r.gradient_generator, r.rate_discriminator, r.rate_generator, largest_sigma};
+LossRow RowOf(std::int64_t step, const std::vector<double>& scalars) {
+  LossRow row = {double(step)};
+  row.insert(row.end(), scalars.begin(), scalars.end());
+  return row;
 }
 
-std::string LossesCsv(const std::vector<LossRow>& rows) {
-  CsvWriter csv({kLossColumns.begin(), kLossColumns.end()});
+std::string LossesCsv(const std::vector<std::string>& scalars, const std::vector<LossRow>& rows) {
+  std::vector<std::string> columns = {"step"};
+  columns.insert(columns.end(), scalars.begin(), scalars.end());
+  CsvWriter csv(columns);
   for (const LossRow& row : rows) {
     for (const double value : row) csv.NumberOrGap(value);
     csv.EndRow();
   }
   return csv.text();
-}
-
-std::string LossText(const StepReport& report) {
-  return fmt::format("L_D {:.2f}  L_G {:+.2f}", report.loss_discriminator, report.loss_generator);
 }
 
 std::vector<std::pair<std::string, double>> StageScalars(const StageStatistics& row,

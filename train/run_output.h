@@ -1,13 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "antigrasp/train/gan_trainer.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_folder.h"
 #include "antigrasp/train/stage.h"
@@ -19,20 +17,11 @@ namespace antigrasp {
 std::string StageName(int episode);                            // "episode 1"; -1: "prior set"
 std::string StageName(int episode, const std::string& doing);  // "episode 1: scoring"
 
-// A row of episode_K/losses.csv: the step within the episode, then a StepReport in its order, then
-// GanTrainer::LargestSigma.
-inline constexpr std::array<const char*, 8> kLossColumns = {"step",
-                                                            "loss_discriminator",
-                                                            "loss_generator",
-                                                            "gradient_discriminator",
-                                                            "gradient_generator",
-                                                            "rate_discriminator",
-                                                            "rate_generator",
-                                                            "largest_sigma"};
-using LossRow = std::array<double, kLossColumns.size()>;
-LossRow RowOf(std::int64_t step, const StepReport& report, double largest_sigma);
-std::string LossesCsv(const std::vector<LossRow>& rows);  // a NaN is an empty field
-std::string LossText(const StepReport& report);
+// A row of episode_K/losses.csv: the step within the episode, then the model's scalars.
+using LossRow = std::vector<double>;
+LossRow RowOf(std::int64_t step, const std::vector<double>& scalars);
+// `scalars`: their names. A NaN is an empty field.
+std::string LossesCsv(const std::vector<std::string>& scalars, const std::vector<LossRow>& rows);
 
 // What TensorBoard shows of a stage.
 std::vector<std::pair<std::string, double>> StageScalars(const StageStatistics& row,

@@ -112,6 +112,8 @@ TEST(ReportNumbersCli, EveryColumnOfARunsTablesBecomesItsNumber) {
       "run/episode_1/losses.csv",
       "step,loss_discriminator,loss_generator,gradient_discriminator,gradient_generator,"
       "rate_discriminator,rate_generator,largest_sigma\n10,1,2,3,4,5,6,7\n20,1.5,,3,4,5,6,7\n");
+  // Of a model with names of its own.
+  folder.Write("run/control/episode_1/losses.csv", "step,radius,gap\n10,0.25,\n20,0.5,8\n");
   const json run = ReportOf(folder, "run")["run"];
   ASSERT_EQ(run["stages"].size(), 3u);
   EXPECT_EQ(run["stages"][1], json::parse(R"({
@@ -129,7 +131,9 @@ TEST(ReportNumbersCli, EveryColumnOfARunsTablesBecomesItsNumber) {
   EXPECT_EQ(run["losses"], json::parse(R"([{"episode": 1, "control": false, "columns": {
       "step": [10, 20], "loss_discriminator": [1, 1.5], "loss_generator": [2, null],
       "gradient_discriminator": [3, 3], "gradient_generator": [4, 4],
-      "rate_discriminator": [5, 5], "rate_generator": [6, 6], "largest_sigma": [7, 7]}}])"));
+      "rate_discriminator": [5, 5], "rate_generator": [6, 6], "largest_sigma": [7, 7]}},
+      {"episode": 1, "control": true, "columns": {
+      "step": [10, 20], "radius": [0.25, 0.5], "gap": [null, 8]}}])"));
 }
 
 }  // namespace

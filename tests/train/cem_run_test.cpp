@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <tuple>
 
 #include "antigrasp/checkpoints/checkpoint.h"
@@ -17,37 +16,18 @@
 #include "antigrasp/train/episode_loop.h"
 #include "antigrasp/train/scalar_log.h"
 #include "tests/support/temp_folder.h"
+#include "tests/train/run_files.h"
 #include "tests/train/tiny_run.h"
 
 namespace antigrasp {
 namespace {
 
 namespace fs = std::filesystem;
+using shapes::ExpectSameFiles;
+using shapes::RunWithStops;
 using shapes::StoppingObserver;
 using shapes::TempFolder;
 using shapes::Tiny;
-
-std::map<std::string, std::string> FilesIn(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    // Events of TensorBoard and the provenance hold the time of day.
-    if (entry.is_regular_file() && entry.path().parent_path().filename() != "tensorboard" &&
-        entry.path().filename() != "provenance.toml") {
-      files[fs::relative(entry.path(), folder).string()] = ReadFile(entry.path());
-    }
-  }
-  return files;
-}
-
-void ExpectSameFiles(const fs::path& a, const fs::path& b) {
-  const auto in_a = FilesIn(a);
-  const auto in_b = FilesIn(b);
-  for (const auto& [name, bytes] : in_a) {
-    ASSERT_TRUE(in_b.contains(name)) << name;
-    EXPECT_TRUE(in_b.at(name) == bytes) << name << " differs";
-  }
-  EXPECT_EQ(in_a.size(), in_b.size());
-}
 
 TEST(CemRun, WritesEveryStageAndPrintableSolids) {
   const TempFolder folder;
@@ -84,27 +64,6 @@ std::vector<std::tuple<std::string, std::int64_t, float>> Events(const fs::path&
     events.emplace_back(event.tag, event.step, event.value);
   }
   return events;
-}
-
-// A run is stopped in this phase after so many reports of progress since it went on.
-struct Stop {
-  int reports;
-  std::string phase;
-};
-
-// Starts a run in `folder`, stops it again and again, and lets it end.
-void RunWithStops(const RunConfig& config, const fs::path& folder, const std::vector<Stop>& stops) {
-  for (const Stop& stop : stops) {
-    StoppingObserver stopping(stop.reports);
-    if (RunFolder{folder}.HoldsARun()) {
-      EXPECT_THROW(ResumeRun(folder, &stopping), Interrupted) << stop.phase;
-    } else {
-      EXPECT_THROW(StartRun(config, folder, &stopping), Interrupted) << stop.phase;
-    }
-    EXPECT_EQ(stopping.phase(), stop.phase);
-  }
-  StoppingObserver never;
-  ResumeRun(folder, &never);
 }
 
 // Two runs, the second one stopped seven times: up to ten seconds, because a smaller generator

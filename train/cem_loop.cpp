@@ -1,0 +1,119 @@
+#include "antigrasp/train/cem_loop.h"
+
+#include <torch/types.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "antigrasp/core/error.h"
+#include "antigrasp/train/run_output.h"
+
+namespace antigrasp {
+
+StageScorer GraspabilityScorer(const RunConfig& config, RunObserver* observer) {
+  return [&config, observer](const torch::Tensor& values, const std::string& name) {
+    return ScoreStage(values, config, name, observer);
+  };
+}
+
+CemLoop::CemLoop(const RunConfig& config, ShapeModel* model, torch::Tensor prior,
+                 StageScorer scorer, RunObserver* observer)
+    : config_(config),
+      model_(model),
+      prior_(std::move(prior)),
+      scorer_(std::move(scorer)),
+      observer_(observer),
+      selector_(config, prior_) {
+  TrainOn(prior_);
+}
+
+void CemLoop::TrainOn(const torch::Tensor& shapes) {
+  shapes_ = shapes;
+  shapes_on_device_ = shapes.to(model_->device());
+}
+
+void CemLoop::Begin() {
+  if (config_.start.empty() || config_.fine_tune) {
+    model_->BeginEpisode(0, config_.cem.prior_iterations, /*restart=*/config_.start.empty());
+  } else {
+    model_->BeginFixedEpisode(0, model_->latent());
+  }
+}
+
+void CemLoop::GoOn(const torch::Tensor& shapes, std::vector<StageStatistics> rows) {
+  TrainOn(shapes);
+  rows_ = std::move(rows);
+}
+
+ScoredStage CemLoop::ScorePrior(const std::string& origin) {
+  const std::int64_t all = prior_.size(0);
+  const std::int64_t count =
+      config_.cem.prior_scored == 0 ? all : std::min<std::int64_t>(all, config_.cem.prior_scored);
+  ScoredStage scored = scorer_(prior_.slice(0, 0, count), "scoring the prior set");
+  const StageStatistics row = Summarize(-1, scored, prior_, config_);
+  if (row.graspability.count == 0) {
+    throw InputError("no usable shape in the prior set", origin,
+                     "shapes that remesh to one closed solid");
+  }
+  rows_.push_back(row);
+  return scored;
+}
+
+void CemLoop::TrainStep() { model_->Step(shapes_on_device_); }
+
+torch::Tensor CemLoop::Sample() {
+  constexpr std::int64_t kChunk = 64;
+  const int episode = model_->episode();
+  const ProgressFn progress = observer_->Phase(StageName(episode, "sampling"));
+  const std::int64_t count = config_.cem.samples;
+  std::vector<torch::Tensor> chunks;
+  for (std::int64_t first = 0; first < count; first += kChunk) {
+    chunks.push_back(
+        model_->Sample(StageSeed(config_, episode), first, std::min(kChunk, count - first)));
+    progress(std::min(first + kChunk, count), count);
+  }
+  return torch::cat(chunks);
+}
+
+Episode CemLoop::Finish() {
+  const int number = model_->episode();
+  Episode episode;
+  episode.scored = scorer_(Sample(), StageName(number, "scoring"));
+  episode.selection = selector_.Select(episode.scored, number);  // the rare event: lowest g
+  if (episode.selection.elites.empty()) {
+    throw RuntimeFailure("episode " + std::to_string(number) + ": none of " +
+                         std::to_string(config_.cem.samples) + " samples is a usable object");
+  }
+  episode.row = Summarize(number, episode.scored, prior_, config_);
+  for (const std::int64_t i : episode.selection.elites) {
+    const double value = episode.scored.graspabilities[static_cast<std::size_t>(i)];
+    episode.row.elite_threshold = std::fmax(episode.row.elite_threshold, value);
+  }
+  rows_.push_back(episode.row);
+  return episode;
+}
+
+void CemLoop::Next(const Episode& episode) {
+  const int number = model_->episode();
+  if (config_.cem.mode == "latent") {
+    const torch::Tensor z =
+        model_->Latents(StageSeed(config_, number), 0, config_.cem.samples)
+            .index_select(0, torch::tensor(episode.selection.elites, torch::kLong));
+    model_->BeginFixedEpisode(number + 1,
+                              AroundElites(z, config_.cem.step, config_.cem.prior_fraction));
+  } else {
+    TrainOn(selector_.TrainingSet(episode.scored, episode.selection));
+    model_->BeginEpisode(number + 1, config_.cem.iterations, config_.cem.restart);
+  }
+}
+
+std::int64_t CemLoop::UpdatesSoFar() const {
+  const bool trained = config_.start.empty() || config_.fine_tune;
+  const std::int64_t first = trained ? config_.cem.prior_iterations : 0;
+  const std::int64_t later = config_.cem.mode == "latent" ? 0 : config_.cem.iterations;
+  const int episode = model_->episode();
+  return (episode == 0 ? 0 : first + (episode - 1LL) * later) + model_->step();
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <torch/serialize/archive.h>
+#include <torch/types.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "antigrasp/train/latent_mixture.h"
+
+namespace antigrasp {
+
+// What the episode loop trains and draws shapes from: p_theta of section V-B. The GAN (gan_model.h)
+// is one. Random numbers depend on a seed, the episode, the step and the sample only, so that a
+// model that was saved and loaded goes on as one that was not, bit for bit.
+class ShapeModel {
+ public:
+  virtual ~ShapeModel() = default;
+
+  // An episode of `iterations` > 0 steps, from where the model is or, when `restart`, from fresh
+  // weights. z is N(0, I).
+  virtual void BeginEpisode(int episode, std::int64_t iterations, bool restart) = 0;
+  // An episode without steps: the model stays as it is, and z comes from `latent`.
+  virtual void BeginFixedEpisode(int episode, const LatentMixture& latent) = 0;
+
+  virtual int episode() const = 0;
+  virtual std::int64_t step() const = 0;        // steps done in this episode
+  virtual std::int64_t iterations() const = 0;  // of this episode
+
+  // One step on a training set, network values [N, 1, n, n, n] float16 on device(), N > 0.
+  // RuntimeFailure when training diverges, before it spoils the state.
+  virtual void Step(const torch::Tensor& shapes) = 0;
+  virtual torch::Device device() const = 0;
+
+  // The scalars of a step by name, columns of losses.csv behind "step": the same names for the
+  // model's whole life. Values are those of the last step of this object; asked for after every
+  // tenth step, so that they may cost something. NaN: not known.
+  virtual std::vector<std::string> ScalarNames() const = 0;
+  virtual std::vector<double> Scalars() = 0;
+  virtual std::string ScalarText() const = 0;  // a few of them, beside the progress bar
+
+  // Sample `first + i` of stream `seed`, i in [0, count): network values [count, 1, n, n, n]
+  // float32 on the CPU, and the z they are drawn from, [count, latent]. Sample i does not depend on
+  // count.
+  virtual torch::Tensor Sample(std::uint64_t seed, std::int64_t first, std::int64_t count) = 0;
+  virtual torch::Tensor Latents(std::uint64_t seed, std::int64_t first,
+                                std::int64_t count) const = 0;
+  virtual const LatentMixture& latent() const = 0;  // the distribution of z
+
+  // The whole state, progress included. Load: InputError, and nothing changed, when it does not
+  // fit. LoadNetworks takes of any saved state what is enough to sample and to begin an episode.
+  virtual void Save(torch::serialize::OutputArchive* archive) const = 0;
+  virtual void Load(torch::serialize::InputArchive* archive) = 0;
+  virtual void LoadNetworks(torch::serialize::InputArchive* archive) = 0;
+};
+
+}  // namespace antigrasp
