@@ -1,13 +1,14 @@
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "antigrasp/app/commands.h"
+#include "antigrasp/app/info_flags.h"
 #include "antigrasp/app/network_commands.h"
-#include "antigrasp/core/error.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/inspect.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/perturb/perturb_summary.h"
+#include "antigrasp/quality/score_table.h"
 
 namespace antigrasp {
 namespace {
@@ -46,12 +47,54 @@ void DescribeMesh(const fs::path& path) {
   std::printf("  printable solid    %s\n", refusal.empty() ? "yes" : ("no: " + refusal).c_str());
 }
 
-void Describe(const std::string& input) {
-  const fs::path path(input);
+void DescribePerturbed(const InfoFlags& flags) {
+  const std::vector<PerturbRow> rows = ReadPerturbTable(fs::path(flags.path) / "perturb.csv");
+  const PerturbMeans means = MeansOf(rows);
+  if (flags.csv) {
+    std::fputs(PerturbMeansCsv(means).c_str(), stdout);
+    return;
+  }
+  const std::string failed = FailedText(rows);
+  std::printf("%s: perturbed objects\n%s\n%s", flags.path.c_str(), PerturbMeansText(means).c_str(),
+              failed.empty() ? "" : ("failed: " + failed + "\n").c_str());
+}
+
+// With originals (evaluate --baseline) a table of scores is one of objects before and after.
+void DescribeScores(const InfoFlags& flags) {
+  std::vector<PerturbRow> rows;
+  for (const ScoreRow& score : ReadScores(flags.path)) {
+    PerturbRow row{.object = score.object, .status = score.score ? "ok" : score.status};
+    if (score.score) row.graspability_after = score.score->graspability;
+    for (const auto& [name, value] : score.extras) {
+      if (name == "baseline") row.graspability_before = value;
+    }
+    rows.push_back(std::move(row));
+  }
+  const PerturbMeans means = MeansOf(rows);
+  if (flags.csv) {
+    std::fputs(PerturbMeansCsv(means).c_str(), stdout);
+    return;
+  }
+  std::printf("%s: scores, %d of %d objects scored\n", flags.path.c_str(), means.ok, means.objects);
+  std::printf("  graspability  %.5f\n", means.graspability_after);
+  if (means.reduction.count > 0) {
+    std::printf("  originals     %.5f\n  reduction     %.1f +-%.1f %%\n", means.graspability_before,
+                means.reduction.mean, means.reduction.half_width);
+  }
+}
+
+void Describe(const InfoFlags& flags) {
+  const fs::path path(flags.path);
   if (fs::is_regular_file(path) && IsShapeSet(path)) {
+    flags.RefuseTable();
     DescribeShapeSet(path);
   } else if (fs::is_regular_file(path) && IsMeshFile(path)) {
+    flags.RefuseTable();
     DescribeMesh(path);
+  } else if (fs::is_regular_file(path / "perturb.csv")) {
+    DescribePerturbed(flags);
+  } else if (fs::is_regular_file(path) && path.extension() == ".csv") {
+    DescribeScores(flags);
   } else {
     BecomeNetworks();
   }
@@ -59,11 +102,6 @@ void Describe(const std::string& input) {
 
 }  // namespace
 
-void AddInfoCommand(CLI::App* app) {
-  const auto path = std::make_shared<std::string>();
-  CLI::App* command = app->add_subcommand("info", "Say what a file or run folder is");
-  command->add_option("FILE", *path, "SDF file, checkpoint, mesh or run folder")->required();
-  command->callback([path] { Describe(*path); });
-}
+void AddInfoCommand(CLI::App* app) { AddInfo(app, Describe); }
 
 }  // namespace antigrasp

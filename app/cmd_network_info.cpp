@@ -2,13 +2,12 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "antigrasp/app/commands.h"
+#include "antigrasp/app/info_flags.h"
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
-#include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_folder.h"
 #include "antigrasp/train/statistics.h"
 
@@ -17,54 +16,67 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void DescribeCheckpoint(const fs::path& path) {
+void DescribeCheckpoint(const InfoFlags& flags) {
+  const fs::path path(flags.path);
   const Checkpoint checkpoint = ReadCheckpoint(path);
+  const std::vector<StageStatistics> rows = StatisticsFromCsv(checkpoint.statistics, flags.path);
+  if (flags.csv) {
+    std::fputs(KappaCsv(rows, {}).c_str(), stdout);
+    return;
+  }
   std::printf("%s: antigrasp checkpoint, version %d%s\n", path.c_str(), Checkpoint::kVersion,
               checkpoint.finished ? ", of a finished run" : "");
   std::printf("  trains on   %lld shapes\n", static_cast<long long>(checkpoint.shapes.size(0)));
-  const std::vector<StageStatistics> rows = StatisticsFromCsv(checkpoint.statistics, path.string());
   if (!rows.empty()) std::printf("\n%s", StatisticsTable(rows, {}).c_str());
   std::printf("\n%s", checkpoint.config.c_str());
 }
 
-void DescribeRun(const RunFolder& run) {
-  std::printf("%s: antigrasp run\n", run.root.c_str());
-  const auto rows_of = [](const RunFolder& folder) {
-    return fs::exists(folder.Latest())
-               ? StatisticsFromCsv(ReadCheckpoint(folder.Latest()).statistics,
-                                   folder.Latest().string())
-               : std::vector<StageStatistics>{};
-  };
-  const std::vector<StageStatistics> rows = rows_of(run);
-  if (rows.empty()) {
-    std::printf("no episode finished yet\n");
-  } else {
-    std::printf("%s", StatisticsTable(rows, rows_of({run.Control()})).c_str());
+// Of the checkpoint; where only the tables of a run were kept, of statistics.csv.
+std::vector<StageStatistics> RowsOf(const RunFolder& run) {
+  if (fs::exists(run.Latest())) {
+    return StatisticsFromCsv(ReadCheckpoint(run.Latest()).statistics, run.Latest().string());
   }
+  if (!fs::exists(run.Statistics())) return {};
+  return StatisticsFromCsv(ReadFile(run.Statistics()), run.Statistics().string());
 }
 
-void Describe(const std::string& input) {
-  const fs::path path(input);
-  constexpr const char* kExpected = "an SDF file, a checkpoint, a mesh, or the folder of a run";
-  if (!fs::exists(path)) throw InputError("no such file or folder", input, kExpected);
+RunFolder RunAt(const std::string& folder, const std::string& where, const std::string& expected) {
+  const RunFolder run{folder};
+  if (run.HoldsARun() || fs::exists(run.Statistics())) return run;
+  throw InputError("not the folder of a run", where, expected);
+}
+
+void DescribeRun(const InfoFlags& flags, const RunFolder& run) {
+  const RunFolder control =
+      flags.control.empty() ? RunFolder{run.Control()}
+                            : RunAt(flags.control, "--control " + flags.control, "one of a run");
+  const std::vector<StageStatistics> rows = RowsOf(run);
+  if (flags.csv) {
+    std::fputs(KappaCsv(rows, RowsOf(control)).c_str(), stdout);
+    return;
+  }
+  std::printf("%s: antigrasp run\n", run.root.c_str());
+  std::printf("%s", rows.empty() ? "no episode finished yet\n"
+                                 : StatisticsTable(rows, RowsOf(control)).c_str());
+}
+
+void Describe(const InfoFlags& flags) {
+  const fs::path path(flags.path);
+  constexpr const char* kExpected =
+      "an SDF file, a checkpoint, a mesh, scores.csv, or the folder of a run or of perturbed "
+      "objects";
+  if (!fs::exists(path)) throw InputError("no such file or folder", flags.path, kExpected);
   if (fs::is_directory(path)) {
-    const RunFolder run{path};
-    if (!run.HoldsARun()) throw InputError("not the folder of a run", input, kExpected);
-    DescribeRun(run);
+    DescribeRun(flags, RunAt(flags.path, flags.path, kExpected));
   } else if (IsCheckpoint(path)) {
-    DescribeCheckpoint(path);
+    DescribeCheckpoint(flags);
   } else {
-    throw InputError("unknown kind of file", input, kExpected);
+    throw InputError("unknown kind of file", flags.path, kExpected);
   }
 }
 
 }  // namespace
 
-void AddNetworkInfoCommand(CLI::App* app) {
-  const auto path = std::make_shared<std::string>();
-  CLI::App* command = app->add_subcommand("info", "Say what a file or run folder is");
-  command->add_option("FILE", *path, "SDF file, checkpoint, mesh or run folder")->required();
-  command->callback([path] { Describe(*path); });
-}
+void AddNetworkInfoCommand(CLI::App* app) { AddInfo(app, Describe); }
 
 }  // namespace antigrasp

@@ -13,6 +13,7 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/perturb/antipodal_rotation.h"
 #include "antigrasp/perturb/exhaustive.h"
+#include "antigrasp/perturb/perturb_summary.h"
 #include "antigrasp/perturb/random_perturbation.h"
 #include "antigrasp/perturb/search.h"
 
@@ -95,6 +96,7 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
   if (settings.common.history) WriteFileAtomic(out / "history.csv", PerturbHistoryCsv(histories));
   WriteFileAtomic(out / "perturb.toml", constants);
   WritePerturbedSheet(objects, out, flags.threads);
+  WriteFileAtomic(out / "summary.csv", PerturbMeansCsv(MeansOf(rows)));
   WriteFileAtomic(out / "perturb.csv", PerturbCsv(rows));  // last: the rest is there
   for (const PerturbedObject& item : objects) {
     if (item.Status() != "ok") spdlog::warn("{}: {}", item.object.name, item.Status());

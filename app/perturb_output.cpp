@@ -8,6 +8,7 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/perturb/perturb_summary.h"
 #include "antigrasp/render/contact_sheet.h"
 
 namespace antigrasp {
@@ -18,15 +19,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t kSheetColumns = 8;
 
 bool IsOk(const PerturbedObject& item) { return item.Status() == "ok"; }
-
-// The first word or two of a status: "after: open: 3 boundary edges" counts as "after: open".
-std::string Reason(const std::string& status) {
-  const std::size_t first = status.find(": ");
-  if (first == std::string::npos) return status;
-  const std::string stage = status.substr(0, first);
-  if (stage != "before" && stage != "after" && stage != "decimated") return stage;
-  return status.substr(0, status.find(": ", first + 2));
-}
 
 }  // namespace
 
@@ -75,40 +67,20 @@ PerturbHistory HistoryOf(const PerturbedObject& item) {
 }
 
 std::string PerturbSummary(const std::vector<PerturbedObject>& objects) {
-  std::vector<double> before, after, largest, hausdorff, seconds;
-  std::map<std::string, int> failed;
+  std::vector<PerturbRow> rows;
+  std::vector<double> seconds;
   for (const PerturbedObject& item : objects) {
-    if (!IsOk(item)) {
-      ++failed[Reason(item.Status())];
-      continue;
-    }
-    before.push_back(item.scored.graspability_before);
-    after.push_back(item.scored.graspability_after);
-    largest.push_back(item.scored.normals.largest);
-    hausdorff.push_back(item.scored.similarity.hausdorff);
-    seconds.push_back(item.scored.seconds);
+    rows.push_back(RowOf(item));
+    if (IsOk(item)) seconds.push_back(item.scored.seconds);
   }
-  const MeanInterval reduction = KappaReduction(before, after);
-  char interval[64] = "", line[320];
-  if (std::isfinite(reduction.half_width)) {  // a single object says nothing about the spread
-    std::snprintf(interval, sizeof interval, " +-%.1f", reduction.half_width);
+  std::string text = PerturbMeansText(MeansOf(rows));
+  if (!seconds.empty()) {
+    char time[64];
+    std::snprintf(time, sizeof time, ", %.2g s of one thread", MeanWithInterval(seconds).mean);
+    text += time;
   }
-  std::snprintf(line, sizeof line,
-                "%zu of %zu objects perturbed: mean graspability %.5f -> %.5f, kappa reduced by "
-                "%.1f%s %%\n"
-                "mean over objects: largest turn of a normal %.1f degrees, Hausdorff distance %.2f "
-                "%% of the diagonal, %.2g s of one thread\n",
-                before.size(), objects.size(), MeanWithInterval(before).mean,
-                MeanWithInterval(after).mean, reduction.mean, interval,
-                MeanWithInterval(largest).mean, MeanWithInterval(hausdorff).mean,
-                MeanWithInterval(seconds).mean);
-  std::string text = before.empty() ? "no object perturbed\n" : line;
-  if (failed.empty()) return text;
-  std::string reasons;
-  for (const auto& [reason, count] : failed) {
-    reasons += (reasons.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
-  }
-  return text + "failed: " + reasons + "\n";
+  const std::string failed = FailedText(rows);
+  return text + "\n" + (failed.empty() ? "" : "failed: " + failed + "\n");
 }
 
 void CheckPerturbFolder(const std::vector<std::string>& inputs, const fs::path& out) {

@@ -3,8 +3,8 @@ import argparse
 import pathlib
 
 from reproduce_document import commit, write_section
-from reproduce_runs import (COMPARED, CONFIG, RESULTS, SURFACE_COLUMNS, compare, keep, ratio, rows_of, shown, surface_cells, surfaces,
-                            train)
+from reproduce_runs import (COMPARED, CONFIG, RESULTS, SURFACE_COLUMNS, compare, kappa, kappas, keep, rows_of, shown,
+                            surface_cells, surfaces, train)
 
 DOCUMENT = pathlib.Path("docs/training.md")
 KIND = "cylinders"
@@ -37,8 +37,9 @@ def document():
         rows, seen = rows_of(results_of(variant)), surfaces(results_of(variant), 0)
         if 0 not in rows:
             continue
+        prior = kappa(kappas(results_of(variant))[False, 0], "prior")
         duplicates = f"{seen['near_duplicates'][0]:.0%}" if seen else "-"
-        lines.append(f"| {variant} | {1 - int(rows[0]['ok']) / int(rows[0]['samples']):.1%} | {shown(ratio(rows[0], rows[-1]))} "
+        lines.append(f"| {variant} | {1 - int(rows[0]['ok']) / int(rows[0]['samples']):.1%} | {shown(prior)} "
                      f"| {surface_cells(seen)} | {duplicates} |")
     table = "\n".join(lines)
     write_section("ablation", f"""

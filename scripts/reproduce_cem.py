@@ -3,8 +3,8 @@ import argparse
 import pathlib
 
 from reproduce_document import DOCUMENT, IMAGES, commit, pyplot, save_figure, write_section
-from reproduce_runs import (COMPARED, RESULTS, SURFACE_COLUMNS, compare, keep, ratio, rows_of, shown, surface_cells, surfaces,
-                            train)
+from reproduce_runs import (COMPARED, RESULTS, SURFACE_COLUMNS, compare, kappa, kappas, keep, rows_of, shown, surface_cells,
+                            surfaces, train)
 
 EPISODES = 10
 KIND = "cylinders"
@@ -26,14 +26,13 @@ COLOURS = {"paper": "#b2182b", "stratified": "#2166ac", "latent": "#1b7837", "la
 def table(results):
     columns = ("elites", "episode", "kappa / prior", "kappa / control", "rejected", *SURFACE_COLUMNS, "to the nearest prior shape")
     lines = [f"| {' | '.join(columns)} |", "| --- " * len(columns) + "|"]
-    control = rows_of(results["control"]) if "control" in results else {}
     for way, folder in results.items():
-        rows = rows_of(folder)
+        rows, by = rows_of(folder), kappas(folder, None if way == "control" else results.get("control"))
         for episode in sorted({0, EPISODES // 2, max(rows)} & set(rows)):
             row, seen = rows[episode], surfaces(folder, episode)
-            beside = shown(ratio(row, control[episode])) if way != "control" and episode in control and episode else "-"
+            prior, control = (shown(kappa(by[False, episode], reference)) for reference in ("prior", "control"))
             nearest = f"{seen['nearest_reference'][0]:.3f}" if seen else "-"
-            lines.append(f"| {way} | {episode} | {shown(ratio(row, rows[-1]))} | {beside} "
+            lines.append(f"| {way} | {episode} | {prior} | {control} "
                          f"| {1 - int(row['ok']) / int(row['samples']):.0%} | {surface_cells(seen)} | {nearest} |")
     return "\n".join(lines)
 
@@ -41,12 +40,11 @@ def table(results):
 def curves(path, folders):
     figure, axes = pyplot().subplots(1, 3, figsize=(10, 3))
     for way, folder in folders.items():
-        rows = {e: r for e, r in rows_of(folder).items() if e >= 0}
-        prior = rows_of(folder)[-1]
+        rows, by = {e: r for e, r in rows_of(folder).items() if e >= 0}, kappas(folder)
         episodes = sorted(rows)
-        kappa = [ratio(rows[e], prior) for e in episodes]
-        axes[0].plot(episodes, [k for k, _ in kappa], color=COLOURS[way], label=way)
-        axes[0].fill_between(episodes, [k - h for k, h in kappa], [k + h for k, h in kappa], color=COLOURS[way], alpha=0.2)
+        values = [kappa(by[False, e], "prior") for e in episodes]
+        axes[0].plot(episodes, [k for k, _ in values], color=COLOURS[way], label=way)
+        axes[0].fill_between(episodes, [k - h for k, h in values], [k + h for k, h in values], color=COLOURS[way], alpha=0.2)
         axes[1].plot(episodes, [100 * float(rows[e]["coverage"]) for e in episodes], color=COLOURS[way])
         axes[2].plot(episodes, [100 * (1 - int(rows[e]["ok"]) / int(rows[e]["samples"])) for e in episodes], color=COLOURS[way])
     for ax, title in zip(axes, ("kappa / prior set, 95 %", "COV by network values, %", "rejected, %")):

@@ -1,20 +1,29 @@
 """What the scripts behind scripts/reproduce share: the binary, the document and its sections."""
+import csv
+import io
+import os
 import pathlib
 import re
 import subprocess
 import sys
 
-BINARY = "build/release/bin/antigrasp"
+BINARY = os.environ.get("ANTIGRASP_BINARY", "build/release/bin/antigrasp")
 DOCUMENT = pathlib.Path("docs/reproduction.md")
 IMAGES = pathlib.Path("docs/images")
 SETS = ("cylinders", "prisms", "bottles")
 
 
 def call(*arguments):
-    """Runs the binary in silence; ends the script with its error when it fails."""
-    done = subprocess.run([BINARY, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    """Runs the binary in silence and returns what it printed; ends the script with its error when it fails."""
+    done = subprocess.run([BINARY, *map(str, arguments)], capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"antigrasp {' '.join(map(str, arguments))}: exit {done.returncode}\n{done.stderr[-2000:]}")
+    return done.stdout
+
+
+def means(path, *flags):
+    """The rows of `antigrasp info PATH --csv`: means with their half widths, computed by the binary."""
+    return list(csv.DictReader(io.StringIO(call("info", path, "--csv", *flags))))
 
 
 def commit():

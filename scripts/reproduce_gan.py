@@ -3,7 +3,7 @@ import argparse
 import pathlib
 
 from reproduce_document import DOCUMENT, IMAGES, call, commit, write_section
-from reproduce_runs import CONFIG, RESULTS, SURFACE_COLUMNS, compare, keep, ratio, rows_of, shown, surface_cells, surfaces, train
+from reproduce_runs import CONFIG, RESULTS, SURFACE_COLUMNS, compare, kappa, kappas, keep, rows_of, shown, surface_cells, surfaces, train
 
 
 WIDE = "configs/reproduction_wide.toml"
@@ -62,14 +62,14 @@ def stage_table(run, results):
     rows, control = rows_of(results), rows_of(results / "control")
     columns = ("stage", "rejected", "kappa / prior", "kappa / episode 0", "kappa / control", *SURFACE_COLUMNS)
     lines = [f"| {' | '.join(columns)} |", "| --- " * len(columns) + "|"]
+    found = kappas(results)
     stages = [("", results, rows, e) for e in sorted(rows) if e >= 0]
     if run.episodes in control:
         stages.append(("control, ", results / "control", control, run.episodes))
     for label, where, table, episode in stages:
-        row, measured = table[episode], surfaces(where, episode)
-        to_control = shown(ratio(row, control[episode])) if not label and episode > 0 and episode in control else "-"
-        lines.append(f"| {label}episode {episode} | {rejected(row)} | {shown(ratio(row, rows[-1]))} | {shown(ratio(row, rows[0]))} "
-                     f"| {to_control} | {surface_cells(measured)} |")
+        by = [shown(kappa(found[table is control, episode], reference)) for reference in ("prior", "episode_0", "control")]
+        lines.append(f"| {label}episode {episode} | {rejected(table[episode])} | {' | '.join(by)} "
+                     f"| {surface_cells(surfaces(where, episode))} |")
     first = surfaces(results, 0)
     if first:
         lines.insert(2, f"| prior set | {rejected(rows[-1])} | 1 | - | - | - | - | - | 1 | {first['vendi'][1]:.0f} | {first['roughness'][1]:.1f} |")
@@ -78,13 +78,12 @@ def stage_table(run, results):
 
 def reduction(run, results):
     """One sentence: how far kappa fell, beside the paper's number."""
-    rows, control = rows_of(results), rows_of(results / "control")
-    last = max(rows)
-    found = []
-    for name, reference in (("prior set", rows[-1]), ("episode 0", rows[0]), ("control", control.get(last))):
-        if reference and last > 0:
-            value, half_width = ratio(rows[last], reference)
-            found.append(f"{100 * (1 - value):.0f} ±{100 * half_width:.0f} % against the {name}".replace("the episode", "episode"))
+    last, found = max(rows_of(results)), []
+    row = kappas(results)[False, last]
+    for name, reference in (("the prior set", "prior"), ("episode 0", "episode_0"), ("the control", "control")):
+        if last > 0 and kappa(row, reference):
+            value, half_width = kappa(row, reference)
+            found.append(f"{100 * (1 - value):.0f} ±{100 * half_width:.0f} % against {name}")
     return f"After {last} resampling iterations kappa is lower by {', '.join(found)} (the paper: {run.paper} %)."
 
 

@@ -1,14 +1,12 @@
 """Sections VI-A and VI-B with the binary antigrasp: runs, tables, figures. Called by scripts/reproduce."""
 import argparse
 import csv
-import math
 import pathlib
 import re
 import shutil
 import time
-from statistics import fmean, stdev
 
-from reproduce_document import DOCUMENT, IMAGES, SETS, call, commit, pyplot, save_figure, write_section
+from reproduce_document import DOCUMENT, IMAGES, SETS, call, commit, means, pyplot, save_figure, write_section
 
 HISTORY = ("iteration", "pairs", "pairs_below_cone")  # columns of history.csv
 
@@ -93,9 +91,12 @@ class Runner:
             call("dataset", "make", kind, "--count", self.objects, "--out", file)
         return file
 
+    def folder(self, setting, kind):
+        return self.out / kind / setting.folder
+
     def result(self, setting, kind):
-        """Runs what is not there yet; the rows of perturb.csv with graspabilities at Dex-Net's noise added."""
-        folder = self.out / kind / setting.folder
+        """Runs what is not there yet; the means over the objects, and those at Dex-Net's noise."""
+        folder = self.folder(setting, kind)
         scores = folder / "dexnet_noise.csv"
         start = time.time()
         fresh = not scores.exists()
@@ -107,37 +108,17 @@ class Runner:
             if any((folder / "after").iterdir()):
                 call("evaluate", folder / "after", "--baseline", folder / "before", "--noise", "dexnet", "--out", scores)
             else:
-                scores.write_text("object,baseline,graspability\n")
+                scores.touch()
         self.left -= setting.cost
         if fresh:
             now = (time.time() - start) / setting.cost
             self.rate = now if self.rate is None else 0.5 * (self.rate + now)
-        rows = list(csv.DictReader(open(folder / "perturb.csv")))
-        dexnet = {pathlib.Path(r["object"]).stem: r for r in csv.DictReader(open(scores))}
-        for row in rows:
-            row["dexnet"] = dexnet.get(row["object"])
-        return rows
+        own = means(folder)[0]
+        return own, means(scores)[0] if int(own["ok"]) else own
 
 
-def numbers(rows, column):
-    return [float(row[column]) for row in rows if row["status"] == "ok"]
-
-
-def reduction(before, after):
-    """By how many percent the mean falls, with the half width of its 95 % interval over objects."""
-    if len(before) < 2:
-        return math.nan, math.nan
-    base = fmean(before)
-    ratio = fmean(after) / base
-    residuals = [(a - ratio * b) / base for b, a in zip(before, after)]
-    return 100 * (1 - ratio), 196 * stdev(residuals) / math.sqrt(len(before))
-
-
-def reductions(rows):
-    """At the default noise, and at Dex-Net's; printable results only."""
-    both = [row["dexnet"] for row in rows if row["status"] == "ok" and row["dexnet"] and row["dexnet"]["graspability"]]
-    dexnet = [[float(row[column]) for row in both] for column in ("baseline", "graspability")]
-    return reduction(numbers(rows, "graspability_before"), numbers(rows, "graspability_after")), reduction(*dexnet)
+def number(text, form):
+    return format(float(text), form) if text else "-"
 
 
 def table(settings, runner):
@@ -146,54 +127,31 @@ def table(settings, runner):
     for setting in settings:
         cells = [[] for _ in range(6)]
         for kind in SETS:
-            rows = runner.result(setting, kind)
-            ok = sum(row["status"] == "ok" for row in rows)
-            cells[3 + 0].append(f"{100 * (1 - ok / len(rows)):.0f}")
-            if ok < 3:
+            own, dexnet = runner.result(setting, kind)
+            cells[3].append(f"{100 * (1 - int(own['ok']) / int(own['objects'])):.0f}")
+            if int(own["ok"]) < 3:
                 for column in (0, 1, 2, 4, 5):
                     cells[column].append("-")
                 continue
-            for column, (percent, half) in zip((0, 1), reductions(rows)):
-                cells[column].append(f"{percent:.0f} ±{half:.0f}")
-            turn = row_numbers(rows, "normal_max_deg")
-            cells[2].append(f"{fmean(turn):.0f}" if turn else "-")
-            cells[4].append(f"{fmean(numbers(rows, 'hausdorff_pct')):.1f}")
-            cells[5].append(f"{fmean(map(abs, numbers(rows, 'volume_change_pct'))):.1f}")
+            for column, found in zip((0, 1), (own, dexnet)):
+                cells[column].append(f"{number(found['reduction_pct'], '.0f')} ±{number(found['reduction_half_width_95'], '.0f')}")
+            for column, name, form in ((2, "normal_max_deg", ".0f"), (4, "hausdorff_pct", ".1f"), (5, "volume_pct", ".1f")):
+                cells[column].append(number(own[name], form))
         lines.append(f"| {setting.label} | {setting.paper} | " + " | ".join(" / ".join(c) for c in cells) + " |")
     return "\n".join(lines)
 
 
-def row_numbers(rows, column):
-    return [float(row[column]) for row in rows if row[column] and row["status"] == "ok"]
-
-
-def histograms(path, columns, runner):
-    """Rows: sets; columns: settings. Graspability before (grey) and after, by the mean before."""
-    figure, axes = pyplot().subplots(len(SETS), len(columns), figsize=(2.3 * len(columns), 5), sharex=True, sharey="row")
-    bins = [0.08 * i for i in range(26)]
-    for i, kind in enumerate(SETS):
-        for j, setting in enumerate(columns):
-            rows, ax = runner.result(setting, kind), axes[i, j]
-            before, after = (numbers(rows, f"graspability_{when}") for when in ("before", "after"))
-            base = fmean(before)
-            ax.hist([b / base for b in before], bins, color="0.75", label="before")
-            ax.hist([a / base for a in after], bins, histtype="step", color="#b2182b", linewidth=1.3, label="after")
-            ax.axvline(1, color="0.45", linewidth=0.8)
-            ax.axvline(fmean(after) / base, color="#b2182b", linewidth=0.8, linestyle="--")
-            ax.spines[["top", "right"]].set_visible(False)
-            ax.set_yticks([])
-            if i == 0:
-                ax.set_title(setting.label, fontsize=9)
-            if j == 0:
-                ax.set_ylabel(kind, fontsize=9)
-            ax.tick_params(labelsize=8)
-    axes[0, 0].legend(fontsize=7, frameon=False)
-    figure.supxlabel("graspability / mean before (dashed: mean after)", fontsize=9)
-    save_figure(figure, path)
+def distributions(name, columns, runner):
+    """A picture for every set, a row for every setting: an object before and after, and the graspability of all."""
+    for kind in SETS:
+        call("figure", 3, *(runner.folder(setting, kind) for setting in columns),
+             "--label", *(setting.label for setting in columns), "--out", IMAGES / f"{name}_{kind}.png")
+    return "\n\n".join(f"![Graspability of {kind} before and after](images/{name}_{kind}.png)" for kind in SETS)
 
 
 def figure_1(path, runner):
-    """|F_a| of a dodecahedron against iterations of IV-A, five seeds, two friction cones."""
+    """|F_a| of a dodecahedron against iterations of IV-A, five seeds, two friction cones. `antigrasp figure 1` has no
+    line for the pairs below the cone."""
     solid = runner.out / "dodecahedron.stl"
     call("shape", "dodecahedron", "--phi", 0, "--size-mm", 60, "--out", solid)
     figure, axes = pyplot().subplots(1, 2, figsize=(7, 2.6))
@@ -226,7 +184,7 @@ def picture(path, columns, runner):
         shutil.rmtree(row, ignore_errors=True)
         row.mkdir(parents=True)
         for number, (kind, name) in enumerate(names):
-            source = runner.out / kind / (setting or columns[0]).folder / ("after" if setting else "before") / name
+            source = runner.folder(setting or columns[0], kind) / ("after" if setting else "before") / name
             if source.exists():
                 shutil.copy(source, row / f"{number}.stl")
         rows.append(row)
@@ -236,8 +194,8 @@ def picture(path, columns, runner):
 def analytic(runner, objects, started):
     random, rotation, search = random_settings(), rotation_settings(), search_settings()
     tables = [table(part, runner) for part in (random, rotation, search)]
-    histograms(IMAGES / "analytic_random.png", random[:3] + search, runner)
-    histograms(IMAGES / "analytic_rotation.png", rotation[1:7], runner)
+    of_random = distributions("analytic_random", random[:3] + search, runner)
+    of_rotation = distributions("analytic_rotation", rotation[1:7], runner)
     picture(IMAGES / "perturbed.png", [random[0], random[2], rotation[5], *search], runner)
     figure_1(IMAGES / "analytic_exhaustive.png", runner)
     write_section("analytic", f"""
@@ -276,9 +234,11 @@ With the metric's own (27 degrees) the pairs below the cone fall while others jo
 
 From above: originals, random at alpha 10 and 20, rotation at beta 0.075 with 10 x iterations, search at alpha 10 and 20.
 
-![Histograms of graspability before and after random perturbation and search](images/analytic_random.png)
+Random perturbation and search, then antipodal rotation (`antigrasp figure 3`; in every row the object whose change is nearest to the median):
 
-![Histograms of graspability before and after antipodal rotation](images/analytic_rotation.png)
+{of_random}
+
+{of_rotation}
 """)
 
 

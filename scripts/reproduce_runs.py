@@ -1,12 +1,11 @@
 """Training runs behind scripts/reproduce: starting them, and reading what they wrote."""
 import csv
-import math
 import pathlib
 import shutil
 import subprocess
 import sys
 
-from reproduce_document import BINARY, call
+from reproduce_document import BINARY, call, means
 
 CONFIG = "configs/reproduction.toml"
 COMPARED = 200  # objects a side of the comparison with shapes that were held out
@@ -38,15 +37,20 @@ def keep(folder, results):
                 shutil.copyfile(file, target)
 
 
-def ratio(row, reference):
-    """Mean graspability by a reference's, with its 95 % half width (delta method, independent means)."""
-    a, b = float(row["graspability"]), float(reference["graspability"])
-    da, db = float(row["half_width_95"]), float(reference["half_width_95"])
-    return a / b, a / b * math.hypot(da / a, db / b)
+def kappas(folder, control=None):
+    """{(of the control, stage): what `info --csv` says of it}. `control`: another run instead of the folder's own."""
+    flags = ("--control", control) if control else ()
+    return {(row["control"] == "1", int(row["stage"])): row for row in means(folder, *flags)}
+
+
+def kappa(row, reference):
+    """(kappa, its half width) against "prior", "episode_0" or "control"; None where there is no such reference."""
+    value = row[f"kappa_{reference}"]
+    return (float(value), float(row[f"kappa_{reference}_half_width_95"])) if value else None
 
 
 def shown(value):
-    return f"{value[0]:.2f} ±{value[1]:.2f}"
+    return f"{value[0]:.2f} ±{value[1]:.2f}" if value else "-"
 
 
 def held_out(kind, out, count, seed):

@@ -4,8 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <sstream>
 
+#include "antigrasp/core/csv_writer.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
 
@@ -74,10 +76,38 @@ std::string RejectedText(const StageStatistics& row) {
   return reasons.empty() ? "0" : reasons;
 }
 
-std::string RatioText(const MeanInterval& value, const MeanInterval* reference) {
-  if (reference == nullptr || !(reference->mean > 0)) return "-";
-  const MeanInterval ratio = Ratio(value, *reference);
-  return Printf("%.2f +-%.2f", ratio.mean, ratio.half_width);
+// A row of a run or of its control with what its kappa is measured against; a control's rows are
+// measured against those of the run. None: there is no such reference, or it is 0.
+struct ComparedStage {
+  const StageStatistics* row;
+  bool control;
+  std::optional<MeanInterval> by_prior, by_first, by_control;
+};
+
+std::vector<ComparedStage> Compare(const std::vector<StageStatistics>& rows,
+                                   const std::vector<StageStatistics>& control) {
+  const StageStatistics* prior = FindStage(rows, -1);
+  const StageStatistics* first = FindStage(rows, 0);
+  std::vector<ComparedStage> stages;
+  const auto add = [&](const StageStatistics& row, bool is_control, const StageStatistics* same) {
+    const auto ratio = [&](const StageStatistics* reference) -> std::optional<MeanInterval> {
+      if (reference == nullptr || !(reference->graspability.mean > 0)) return std::nullopt;
+      return Ratio(row.graspability, reference->graspability);
+    };
+    stages.push_back(
+        {&row, is_control, ratio(prior), ratio(row.stage < 0 ? nullptr : first), ratio(same)});
+  };
+  for (const StageStatistics& row : rows) {
+    add(row, false, row.stage > 0 ? FindStage(control, row.stage) : nullptr);
+  }
+  for (const StageStatistics& row : control) {
+    if (row.stage > 0) add(row, true, nullptr);
+  }
+  return stages;
+}
+
+std::string RatioText(const std::optional<MeanInterval>& ratio) {
+  return ratio ? Printf("%.2f +-%.2f", ratio->mean, ratio->half_width) : "-";
 }
 
 std::string Share(double value) { return std::isnan(value) ? "-" : Printf("%.0f %%", 100 * value); }
@@ -151,28 +181,37 @@ std::vector<StageStatistics> StatisticsFromCsv(const std::string& csv, const std
   return rows;
 }
 
+std::string KappaCsv(const std::vector<StageStatistics>& rows,
+                     const std::vector<StageStatistics>& control) {
+  CsvWriter csv({"control", "stage", "graspability", "graspability_half_width_95", "kappa_prior",
+                 "kappa_prior_half_width_95", "kappa_episode_0", "kappa_episode_0_half_width_95",
+                 "kappa_control", "kappa_control_half_width_95"});
+  for (const ComparedStage& stage : Compare(rows, control)) {
+    csv.Count(stage.control ? 1 : 0).Text(std::to_string(stage.row->stage));
+    for (const std::optional<MeanInterval>& value :
+         {std::optional(stage.row->graspability), stage.by_prior, stage.by_first,
+          stage.by_control}) {
+      csv.NumbersOrGaps(
+          {value ? value->mean : std::nan(""), value ? value->half_width : std::nan("")});
+    }
+    csv.EndRow();
+  }
+  return csv.text();
+}
+
 std::string StatisticsTable(const std::vector<StageStatistics>& rows,
                             const std::vector<StageStatistics>& control) {
   std::vector<std::vector<std::string>> cells = {{"episode", "samples", "rejected", "graspability",
                                                   "/ prior", "/ episode 0", "/ control", "coverage",
                                                   "near-duplicates"}};
-  const StageStatistics* prior = FindStage(rows, -1);
-  const StageStatistics* first = FindStage(rows, 0);
-  const auto add = [&](const std::string& label, const StageStatistics& row, bool compare) {
-    const StageStatistics* same = compare ? FindStage(control, row.stage) : nullptr;
-    cells.push_back(
-        {label, std::to_string(row.samples), RejectedText(row),
-         Printf("%.5f +-%.5f", row.graspability.mean, row.graspability.half_width),
-         RatioText(row.graspability, prior ? &prior->graspability : nullptr),
-         row.stage < 0 ? "-" : RatioText(row.graspability, first ? &first->graspability : nullptr),
-         RatioText(row.graspability, same ? &same->graspability : nullptr), Share(row.coverage),
-         Share(row.duplicates)});
-  };
-  for (const StageStatistics& row : rows) {
-    add(row.stage < 0 ? "prior set" : std::to_string(row.stage), row, row.stage > 0);
-  }
-  for (const StageStatistics& row : control) {
-    if (row.stage > 0) add("control " + std::to_string(row.stage), row, false);
+  for (const ComparedStage& stage : Compare(rows, control)) {
+    const StageStatistics& row = *stage.row;
+    const std::string episode = row.stage < 0 ? "prior set" : std::to_string(row.stage);
+    cells.push_back({(stage.control ? "control " : "") + episode, std::to_string(row.samples),
+                     RejectedText(row),
+                     Printf("%.5f +-%.5f", row.graspability.mean, row.graspability.half_width),
+                     RatioText(stage.by_prior), RatioText(stage.by_first),
+                     RatioText(stage.by_control), Share(row.coverage), Share(row.duplicates)});
   }
   return Aligned(cells);
 }

@@ -38,6 +38,11 @@ MeanInterval Ratio(const MeanInterval& value, const MeanInterval& reference);
 std::string StatisticsToCsv(const std::vector<StageStatistics>& rows);
 std::vector<StageStatistics> StatisticsFromCsv(const std::string& csv, const std::string& origin);
 
+// Kappa as a table for programs (docs/formats.md): the rows of StatisticsTable, with a half width
+// for every mean; empty where there is no reference.
+std::string KappaCsv(const std::vector<StageStatistics>& rows,
+                     const std::vector<StageStatistics>& control);
+
 // The table a person reads after a run: episode, samples, rejected by reason, graspability with its
 // interval, kappa relative to the prior set, to episode 0 and to the control of the same episode
 // ("-" without one), coverage, duplicates. `control` may be empty.

@@ -123,7 +123,9 @@ TEST(PerturbCli, WritesTheSameBytesForAnyNumberOfThreadsAndOthersForAnotherSeed)
   ASSERT_EQ(Antigrasp(random + "2 --threads 3").code, 0);
   ASSERT_EQ(Antigrasp(random + "3 --seed 2").code, 0);
   const auto contents = Contents(folder / "1");
-  EXPECT_EQ(contents.size(), 7u);  // 2 meshes, 2 originals, perturb.csv, perturb.toml, sheet.png
+  // 2 meshes, 2 originals, perturb.csv, perturb.toml, sheet.png, summary.csv
+  EXPECT_EQ(contents.size(), 8u);
+  EXPECT_EQ(contents.at("summary.csv"), Antigrasp("info " + dir + "1 --csv").text);
   EXPECT_TRUE(contents == Contents(folder / "2"));
   EXPECT_FALSE(contents == Contents(folder / "3"));
   const std::string rotation = "perturb rotation --history" + common;

@@ -15,13 +15,24 @@ class Runs(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = pathlib.Path(temporary.name)
 
-    def test_a_ratio_has_the_half_width_of_the_delta_method(self):
-        # 3 / 4; relative half widths 0.3 / 3 = 0.1 and 0.8 / 4 = 0.2 add in squares to the root of 0.05.
-        value, half = reproduce_runs.ratio({"graspability": "3", "half_width_95": "0.3"},
-                                           {"graspability": "4", "half_width_95": "0.8"})
+    def test_kappa_is_what_the_binary_says_of_a_stage_and_a_reference(self):
+        # 3 / 4; relative half widths 0.3 / 3 = 0.1 and 0.8 / 4 = 0.2 add in squares to the root of 0.05. By episode 0
+        # 3 / 6, by the control's episode 2 3 / 5, both references without an error.
+        write_statistics(self.folder, [{"stage": -1, "graspability": 4, "half_width_95": 0.8}, {"stage": 0, "graspability": 6},
+                                       {"stage": 2, "graspability": 3, "half_width_95": 0.3}])
+        write_statistics(self.folder / "control", [{"stage": 2, "graspability": 5}])
+        write_statistics(self.folder / "other", [{"stage": 2, "graspability": 2}])
+        found = reproduce_runs.kappas(self.folder)
+        self.assertEqual(list(found), [(False, -1), (False, 0), (False, 2), (True, 2)])
+        value, half = reproduce_runs.kappa(found[False, 2], "prior")
         self.assertAlmostEqual(value, 0.75, 15)
         self.assertAlmostEqual(half, 0.75 * 0.05 ** 0.5, 15)
         self.assertEqual(reproduce_runs.shown((value, half)), "0.75 ±0.17")
+        self.assertEqual(reproduce_runs.shown(reproduce_runs.kappa(found[False, 2], "episode_0")), "0.50 ±0.05")
+        self.assertEqual(reproduce_runs.shown(reproduce_runs.kappa(found[False, 2], "control")), "0.60 ±0.06")
+        self.assertEqual(reproduce_runs.shown(reproduce_runs.kappa(found[True, 2], "control")), "-")
+        beside = reproduce_runs.kappas(self.folder, self.folder / "other")
+        self.assertEqual(reproduce_runs.shown(reproduce_runs.kappa(beside[False, 2], "control")), "1.50 ±0.15")
 
     def test_rows_are_found_by_their_stage(self):
         self.assertEqual(reproduce_runs.rows_of(self.folder), {})

@@ -18,8 +18,8 @@ def markdown_rows(table):
 
 def write_statistics(folder, rows):
     """statistics.csv with zeros where a row says nothing."""
-    columns = ("stage", "samples", "ok", "empty", "touches_border", "non_manifold", "non_orientable", "self_intersecting",
-               "disjoint", "gaps", "non_finite", "scored", "without_grasps", "graspability", "half_width_95", "count",
+    columns = ("stage", "samples", "ok", "non_finite", "empty", "touches_border", "gaps", "non_manifold", "non_orientable",
+               "self_intersecting", "disjoint", "scored", "without_grasps", "graspability", "half_width_95", "count",
                "elite_threshold", "coverage", "nna", "duplicates", "diversity")
     folder.mkdir(parents=True, exist_ok=True)
     lines = [",".join(columns)] + [",".join(str(row.get(column, 0)) for column in columns) for row in rows]

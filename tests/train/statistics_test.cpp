@@ -160,5 +160,21 @@ TEST(StatisticsTable, DividesByPriorEpisodeZeroAndTheControlOfTheSameEpisode) {
              "33 %", "0 %"});
 }
 
+// Powers of two, so that every number is exact: 0.25 by 1, 0.5 and (of the same episode) 2; the
+// half width of the prior's mean is a quarter of it, that of the control's an eighth.
+TEST(KappaCsv, HasEveryRatioWithItsHalfWidthUnderItsNameAndGapsWithoutAReference) {
+  const std::string csv = KappaCsv({Row(-1, 1.0, 0.25), Row(0, 0.5, 0), Row(2, 0.25, 0)},
+                                   {Row(-1, 7.0, 0), Row(0, 9.0, 0), Row(2, 2.0, 0.25)});
+  EXPECT_EQ(csv,
+            "control,stage,graspability,graspability_half_width_95,kappa_prior,"
+            "kappa_prior_half_width_95,kappa_episode_0,kappa_episode_0_half_width_95,"
+            "kappa_control,kappa_control_half_width_95\n"
+            "0,-1,1,0.25,1,0.3535533905932738,,,,\n"  // hypot(0.25, 0.25)
+            "0,0,0.5,0,0.5,0.125,1,0,,\n"
+            "0,2,0.25,0,0.25,0.0625,0.5,0,0.125,0.015625\n"
+            "1,2,2,0.25,2,0.5590169943749475,4,0.5,,\n");  // hypot(0.25, 2 x 0.25)
+  EXPECT_EQ(KappaCsv({Row(1, 0.5, 0)}, {}).substr(csv.find('\n') + 1), "0,1,0.5,0,,,,,,\n");
+}
+
 }  // namespace
 }  // namespace antigrasp

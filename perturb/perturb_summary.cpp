@@ -1,0 +1,83 @@
+#include "antigrasp/perturb/perturb_summary.h"
+
+#include <cstdio>
+#include <map>
+
+#include "antigrasp/core/csv_writer.h"
+#include "antigrasp/perturb/scored_perturbation.h"
+
+namespace antigrasp {
+namespace {
+
+// The first word or two of a status: "after: open: 3 boundary edges" counts as "after: open".
+std::string Reason(const std::string& status) {
+  const std::size_t first = status.find(": ");
+  if (first == std::string::npos) return status;
+  const std::string stage = status.substr(0, first);
+  if (stage != "before" && stage != "after" && stage != "decimated") return stage;
+  return status.substr(0, status.find(": ", first + 2));
+}
+
+}  // namespace
+
+PerturbMeans MeansOf(const std::vector<PerturbRow>& rows) {
+  std::vector<double> before, after, turn, hausdorff, volume;
+  for (const PerturbRow& row : rows) {
+    if (row.status != "ok") continue;
+    before.push_back(row.graspability_before);
+    after.push_back(row.graspability_after);
+    turn.push_back(row.normal_max_deg);
+    hausdorff.push_back(row.hausdorff_pct);
+    volume.push_back(std::abs(row.volume_change_pct));
+  }
+  const auto mean = [](const std::vector<double>& values) { return MeanWithInterval(values).mean; };
+  return {.objects = static_cast<int>(rows.size()),
+          .ok = static_cast<int>(before.size()),
+          .graspability_before = mean(before),
+          .graspability_after = mean(after),
+          .reduction = KappaReduction(before, after),
+          .normal_max_deg = mean(turn),
+          .hausdorff_pct = mean(hausdorff),
+          .volume_pct = mean(volume)};
+}
+
+std::string PerturbMeansCsv(const PerturbMeans& means) {
+  CsvWriter csv({"objects", "ok", "graspability_before", "graspability_after", "reduction_pct",
+                 "reduction_half_width_95", "normal_max_deg", "hausdorff_pct", "volume_pct"});
+  csv.Count(means.objects).Count(means.ok);
+  csv.NumbersOrGaps({means.graspability_before, means.graspability_after, means.reduction.mean,
+                     means.reduction.half_width, means.normal_max_deg, means.hausdorff_pct,
+                     means.volume_pct});
+  csv.EndRow();
+  return csv.text();
+}
+
+std::string PerturbMeansText(const PerturbMeans& means) {
+  if (means.ok == 0) return "no object perturbed";
+  char interval[64] = "", text[320];
+  if (std::isfinite(means.reduction.half_width)) {  // a single object says nothing about the spread
+    std::snprintf(interval, sizeof interval, " +-%.1f", means.reduction.half_width);
+  }
+  std::snprintf(text, sizeof text,
+                "%d of %d objects perturbed: mean graspability %.5f -> %.5f, kappa reduced by "
+                "%.1f%s %%\n"
+                "mean over objects: largest turn of a normal %.1f degrees, Hausdorff distance %.2f "
+                "%% of the diagonal",
+                means.ok, means.objects, means.graspability_before, means.graspability_after,
+                means.reduction.mean, interval, means.normal_max_deg, means.hausdorff_pct);
+  return text;
+}
+
+std::string FailedText(const std::vector<PerturbRow>& rows) {
+  std::map<std::string, int> failed;
+  for (const PerturbRow& row : rows) {
+    if (row.status != "ok") ++failed[Reason(row.status)];
+  }
+  std::string reasons;
+  for (const auto& [reason, count] : failed) {
+    reasons += (reasons.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
+  }
+  return reasons;
+}
+
+}  // namespace antigrasp
