@@ -143,6 +143,18 @@ TEST(CompareCli, TakesAsManyShapesOfBothSetsAsAskedFor) {
   EXPECT_NE(ReadFile(folder / "all.csv"), ReadFile(folder / "other.csv"));
 }
 
+TEST(CompareCli, DrawsEitherSetByAStreamOfItsOwn) {
+  const TempFolder folder;
+  WriteSets(folder);
+  const std::string set = (folder / "b").string(), table = (folder / "c.csv").string();
+  const Outcome outcome =
+      Antigrasp("compare " + set + " " + set + " --count 2 --points 20 --out " + table);
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  // Boxes of six sizes: two others of them have another mean diagonal.
+  const Pair size = Measures(folder / "c.csv")["size"];
+  EXPECT_NE(size.samples, size.reference);
+}
+
 TEST(CompareCli, CountsGridsThatAreNoSolidByReason) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/";

@@ -196,9 +196,12 @@ TEST(EvaluateCli, TakesTheBaselineFromTheOriginalOfTheSameName) {
   WriteMesh(folder / "after/a.stl", shapes::Cylinder(1.0, 3.0, 24));
   WriteMesh(folder / "before/b.stl", shapes::Cube());
   WriteMesh(folder / "after/b.stl", shapes::Torus(1.0, 0.4, 24, 12));
-  const Outcome outcome =
-      Antigrasp("evaluate " + dir + "after --baseline " + dir + "before/b.stl " + dir +
-                "before/a.stl --seed 5 --num-grasps 12 --num-draws 3 --out " + dir + "s.csv");
+  // The third has no score any more: it is no pair, and its original is not of the baseline's mean.
+  WriteMesh(folder / "before/c.stl", shapes::Box({1.0, 1.5, 2.0}));
+  WriteMesh(folder / "after/c.stl", shapes::FlatSquare());
+  const Outcome outcome = Antigrasp(
+      "evaluate " + dir + "after --baseline " + dir + "before/b.stl " + dir + "before/a.stl " +
+      dir + "before/c.stl --seed 5 --num-grasps 12 --num-draws 3 --out " + dir + "s.csv");
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   MetricOptions metric;
   metric.num_grasps = 12;
@@ -209,8 +212,9 @@ TEST(EvaluateCli, TakesTheBaselineFromTheOriginalOfTheSameName) {
   ASSERT_GT(changed, 0.0);
   ASSERT_LT(changed, 0.9 * b);
   ASSERT_NE(a, b);
+  ASSERT_GT(Scored(folder / "before/c.stl", metric, 5, 2).value, 0.0);
   const auto rows = CsvRows(folder / "s.csv");
-  ASSERT_EQ(rows.size(), 2U);
+  ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0].at("object"), "a.stl");
   EXPECT_EQ(Number(rows[0], "baseline"), a);
   EXPECT_EQ(Number(rows[0], "difference"), 0.0);

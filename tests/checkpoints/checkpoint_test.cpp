@@ -131,11 +131,14 @@ TEST(Checkpoint, RefusesAForeignArchiveAndAnotherVersion) {
   foreign.save_to((folder / "foreign.pt").string());
   EXPECT_NE(MessageOf(folder / "foreign.pt").find("no entry 'format'"), std::string::npos);
 
-  torch::serialize::OutputArchive newer;
-  newer.write("format", c10::IValue(std::string("antigrasp.checkpoint")));
-  newer.write("version", c10::IValue(std::int64_t{99}));
-  newer.save_to((folder / "newer.pt").string());
-  EXPECT_NE(MessageOf(folder / "newer.pt").find("checkpoint version 99"), std::string::npos);
+  for (const std::int64_t version : {0, 2, 99}) {  // older ones as newer ones
+    torch::serialize::OutputArchive other;
+    other.write("format", c10::IValue(std::string("antigrasp.checkpoint")));
+    other.write("version", c10::IValue(version));
+    other.save_to((folder / "other.pt").string());
+    EXPECT_NE(MessageOf(folder / "other.pt").find("checkpoint version " + std::to_string(version)),
+              std::string::npos);
+  }
 }
 
 TEST(Checkpoint, AFullDiskKeepsTheLastGoodOne) {

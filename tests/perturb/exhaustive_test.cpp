@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "antigrasp/perturb/draw_direction.h"
+#include "antigrasp/perturb/face_pairs.h"
 #include "tests/perturb/perturbed_shapes.h"
 #include "tests/support/shapes.h"
 
@@ -88,6 +91,46 @@ TEST(PerturbExhaustively, StepsHaveTheirLengthAndTheStreamDecides) {
     EXPECT_EQ(done, ++reported);
   });
   EXPECT_EQ(reported, 3);
+}
+
+TEST(PerturbExhaustively, MovesAVertexToWhereTheSumOverItsPairsIsLargestEachCountedOnce) {
+  // A lens with a square rim. Vertex 0 is on it: faces above and below that meet there are a pair.
+  const TriangleMesh lens{
+      {{1, 0, 0}, {0, 1.25, 0}, {-1.5, 0, 0}, {0, -0.75, 0}, {0.125, 0, 0.25}, {0, 0.125, -0.25}},
+      {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}}};
+  const auto holds = [&](std::int32_t face) {
+    const auto& corners = lens.faces[static_cast<std::size_t>(face)];
+    return std::find(corners.begin(), corners.end(), 0) != corners.end();
+  };
+  std::vector<FacePair> of_vertex;
+  int both = 0;
+  for (const FacePair& pair : AntipodalPairs(lens, PairLimitsOf({}, 0.5, 1.0))) {
+    if (holds(pair.first) || holds(pair.second)) of_vertex.push_back(pair);
+    both += holds(pair.first) && holds(pair.second) ? 1 : 0;
+  }
+  ASSERT_GT(both, 0);
+  ASSERT_GT(std::ssize(of_vertex), both);
+  ExhaustiveOptions options;
+  options.iterations = 1;
+  options.directions = 1000;  // the more, the finer the sums are told apart
+  RngStream rng(1, "perturb");
+  TriangleMesh moved = lens;
+  Eigen::Vector3d best;
+  double largest = -1.0;
+  for (int i = 0; i < options.directions; ++i) {
+    moved.vertices[0] =
+        lens.vertices[0] + 0.001 * Bounds(lens).Extent().norm() * DrawDirection(&rng);
+    double sum = 0.0;
+    for (const FacePair& pair : of_vertex) {
+      sum += AntipodalityAngle(FaceShape(moved, static_cast<std::size_t>(pair.first)).normal,
+                               FaceShape(moved, static_cast<std::size_t>(pair.second)).normal);
+    }
+    if (sum > largest) best = moved.vertices[0];
+    largest = std::max(largest, sum);
+  }
+  PerturbOptions common;
+  common.unchecked = true;
+  EXPECT_LT((Perturbed(lens, common, options).mesh.vertices[0] - best).norm(), 1e-6);
 }
 
 TEST(PerturbExhaustively, RefusesWhatIsNoSolid) {

@@ -91,6 +91,19 @@ TEST(Shading, FacesThatTurnByLessThanTheCreaseAreShadedAsOne) {
   EXPECT_GT(shades(50.0, 51.0), 2u);
 }
 
+TEST(Shading, WhereFacesAreShadedAsOneTheLargerTurnsTheNormalMore) {
+  // A roof whose right side is three times as large as its left: cross products (2, -0.5, 0) and
+  // (6, 1.5, 0), which sum to (8, 1, 0) along the ridge.
+  const TriangleMesh roof{{{0, 0, -1}, {0, 0, 1}, {-0.25, -1, 0}, {-0.75, 3, 0}},
+                          {{0, 1, 2}, {0, 3, 1}}};
+  Camera camera = CameraFor(roof, 0.0, 0.0);
+  camera.half_side = 8.0;            // pixels of 1
+  camera.center = {0.0, -0.5, 0.5};  // the middle of pixel (8, 8) is on the ridge
+  const Rgba ridge = RenderOnNothing(roof, camera, FromX()).At(8, 8);
+  const double cosine = (8.0 - 0.5) / std::sqrt(65.0) / std::sqrt(1.74);
+  EXPECT_EQ((Rgb{ridge[0], ridge[1], ridge[2]}), Shade(cosine));
+}
+
 TEST(Shading, APixelIsTheMeanOfItsSamplesOverWhite) {
   const TriangleMesh ball = shapes::Sphere(1.0, 3);
   View coarse = FromX(), fine = FromX();

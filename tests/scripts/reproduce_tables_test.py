@@ -43,6 +43,15 @@ class Tables(unittest.TestCase):
                                    **dict(zip(kappas, ("0.62 ±0.00", "1.25 ±0.00", "-"))), **NO_SURFACES})
         self.assertEqual(len(rows), 4)
 
+    def test_of_a_run_compare_every_episode_with_the_same_one_of_the_control(self):
+        write_statistics(self.results, [*RUN[:2], {"stage": 1, "samples": 9, "ok": 9, "graspability": 0.3, "half_width_95": 0}, RUN[2]])
+        write_statistics(self.results / "control",
+                         [{"stage": 1, "samples": 8, "ok": 8, "graspability": 0.6, "half_width_95": 0}, *CONTROL])
+        rows = markdown_rows(reproduce_gan.stage_table(self.run_2, self.results))
+        self.assertEqual([(row["stage"], row["kappa / control"]) for row in rows],
+                         [("prior set", "-"), ("episode 0", "-"), ("episode 1", "0.50 ±0.00"), ("episode 2", "0.40 ±0.05"),
+                          ("control, episode 2", "-")])
+
     def test_of_a_run_come_with_a_sentence_that_counts_losses_as_positive(self):
         self.assertEqual(reproduce_gan.reduction(self.run_2, self.results),
                          "After 2 resampling iterations kappa is lower by 75 ±3 % against the prior set, 50 ±6 % against episode 0, "
