@@ -49,17 +49,18 @@ std::vector<ScoredObject> ScoreObjects(std::vector<InputObject> objects,
                                        const MetricOptions& metric, std::uint64_t seed, int threads,
                                        const std::string& phase) {
   ConsoleObserver console;
-  std::vector<ScoredObject> scored(objects.size());
-  ParallelFor(
-      static_cast<std::int64_t>(objects.size()), threads,
+  std::vector<Graspability> scores = ScoreAll(
+      std::ssize(objects),
       [&](std::int64_t i) {
-        ScoredObject& item = scored[static_cast<std::size_t>(i)];
-        item.object = std::move(objects[static_cast<std::size_t>(i)]);
-        if (!item.object.ok()) return;
-        item.score =
-            EvaluateGraspability(item.object.mesh, metric, seed, static_cast<std::uint64_t>(i));
+        const InputObject& object = objects[static_cast<std::size_t>(i)];
+        return object.ok() ? &object.mesh : nullptr;
       },
+      [](std::int64_t i) { return static_cast<std::uint64_t>(i); }, metric, seed, threads,
       console.Phase(phase));
+  std::vector<ScoredObject> scored;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    scored.push_back({std::move(objects[i]), std::move(scores[i])});
+  }
   return scored;
 }
 
@@ -142,21 +143,20 @@ std::string AcceptanceLine(const std::vector<ScoredObject>& scored) {
   for (const ScoredObject& item : scored) {
     attempts += item.score.attempts;
     kept += static_cast<double>(item.score.grasps.size());
-    sum.no_opposite += item.score.rejected.no_opposite;
-    sum.slips += item.score.rejected.slips;
-    sum.jaw_blocked += item.score.rejected.jaw_blocked;
-    sum.copies += item.score.rejected.copies;
-    sum.gripper_collides += item.score.rejected.gripper_collides;
+    sum.Add(item.score.rejected);
   }
   if (attempts == 0.0) return "no candidate grasps";
-  char line[256];
-  const auto share = [&](double part) { return 100.0 * part / attempts; };
-  std::snprintf(line, sizeof line,
-                "%.0f candidate grasps: %.0f %% kept, %.0f %% nothing within the opening, %.0f %% "
-                "slip, %.0f %% jaw blocked, %.0f %% gripper collides, %d copies",
-                attempts, share(kept), share(sum.no_opposite), share(sum.slips),
-                share(sum.jaw_blocked), share(sum.gripper_collides), sum.copies);
-  return line;
+  const auto number = [](const char* format, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return std::string(text);
+  };
+  std::string line = number("%.0f candidate grasps", attempts);
+  line += number(": %.0f %% kept", 100.0 * kept / attempts);
+  for (const auto& [reason, count] : sum.reasons) {
+    line += number(", %.0f %% ", 100.0 * count / attempts) + reason;
+  }
+  return line + ", " + std::to_string(sum.copies) + " copies";
 }
 
 }  // namespace antigrasp

@@ -81,9 +81,7 @@ struct Steps {
   void Epsilons() const {
     for (const Recorded& r : objects) {
       for (std::size_t i = 0; i < r.contacts.size(); ++i) {
-        *sink += Epsilon(
-            r.contacts[i], r.com,
-            {r.friction[i], options.cone_edges, options.finger_radius, options.torque_scale});
+        *sink += Epsilon(r.contacts[i], r.com, WrenchModelOf(options, r.friction[i]));
       }
     }
   }
@@ -143,18 +141,26 @@ void PrintShares(const std::vector<TriangleMesh>& meshes, const MetricOptions& o
               seconds[0] / (seconds[1] + seconds[2]));
 }
 
+// Mesh i is object i.
+std::vector<Graspability> ScoreEach(const std::vector<TriangleMesh>& meshes,
+                                    const MetricOptions& options, int threads) {
+  return ScoreAll(
+      std::ssize(meshes), [&](std::int64_t i) { return &meshes[static_cast<std::size_t>(i)]; },
+      [](std::int64_t i) { return static_cast<std::uint64_t>(i); }, options, 1, threads);
+}
+
 // Adaptive draws: the time saved, and how far the answers are from full sampling's.
 void CompareAdaptive(const std::vector<TriangleMesh>& meshes, const MetricOptions& full,
                      double* sink) {
   MetricOptions adaptive = full;
   adaptive.adaptive = true;
   const auto run = [&](const MetricOptions& options) {
-    return [&] { *sink += EvaluateAll(meshes, options, 1, 0, 1).front().value; };
+    return [&] { *sink += ScoreEach(meshes, options, 1).front().value; };
   };
   const std::vector<double> seconds =
       MedianSeconds({{"full", run(full)}, {"adaptive", run(adaptive)}}, 3);
   PrintRatio("adaptive_draws_vs_full", seconds[0] / seconds[1]);
-  const auto a = EvaluateAll(meshes, full, 1), b = EvaluateAll(meshes, adaptive, 1);
+  const auto a = ScoreEach(meshes, full, 0), b = ScoreEach(meshes, adaptive, 0);
   int inside = 0, equal = 0;
   double draws = 0.0, all = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -211,7 +217,7 @@ void CompareThreads(const std::vector<TriangleMesh>& meshes, const MetricOptions
   std::vector<TriangleMesh> step;
   for (std::size_t i = 0; i < kStep; ++i) step.push_back(meshes[i % meshes.size()]);
   const auto run = [&](int threads) {
-    return [&, threads] { *sink += EvaluateAll(step, options, 1, 0, threads).front().value; };
+    return [&, threads] { *sink += ScoreEach(step, options, threads).front().value; };
   };
   const std::vector<double> seconds = MedianSeconds({{"1", run(1)}, {"2", run(2)}}, 1);
   std::printf("time objects_2500_1_thread %.1f s\n", seconds[0]);

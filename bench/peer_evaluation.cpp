@@ -95,9 +95,7 @@ std::vector<double> PeerQualities(const TriangleMesh& mesh, const std::vector<Sc
       const auto [center, axis] = ExecutedPose(grasps[g].grasp, com, noise);
       const auto contacts = CloseJaws(rays, center, axis, options.jaw_opening, noise.friction);
       if (!contacts) continue;
-      sum += EpsilonByQhull(
-          *contacts, com,
-          {noise.friction, options.cone_edges, options.finger_radius, options.torque_scale});
+      sum += EpsilonByQhull(*contacts, com, WrenchModelOf(options, noise.friction));
     }
     qualities.push_back(sum / options.num_draws);
   }

@@ -12,11 +12,11 @@ namespace {
 constexpr double kStandardErrors = 2.5;
 constexpr int kFewestDraws = 5;
 
-void DrawUntil(const RayScene& scene, const Eigen::Vector3d& com, const MetricOptions& options,
-               int draws, NoisyGrasp* noisy) {
+void DrawUntil(const GraspModel& model, const MetricOptions& options, int draws,
+               NoisyGrasp* noisy) {
   for (; noisy->draws < draws; ++noisy->draws) {
     const NoiseDraw noise = DrawNoise(options, &noisy->noise);
-    const double quality = ExecutedQuality(scene, com, noisy->grasp, options, noise);
+    const double quality = model.ExecutedQuality(noisy->grasp, noise);
     noisy->sum += quality;
     noisy->sum_of_squares += quality * quality;
   }
@@ -42,15 +42,15 @@ double MeanVariance(const std::vector<NoisyGrasp>& grasps) {
 
 }  // namespace
 
-void DrawAll(const RayScene& scene, const Eigen::Vector3d& com, const MetricOptions& options,
+void DrawAll(const GraspModel& model, const MetricOptions& options,
              std::vector<NoisyGrasp>* grasps) {
-  for (NoisyGrasp& noisy : *grasps) DrawUntil(scene, com, options, options.num_draws, &noisy);
+  for (NoisyGrasp& noisy : *grasps) DrawUntil(model, options, options.num_draws, &noisy);
 }
 
-void DrawAdaptively(const RayScene& scene, const Eigen::Vector3d& com, const MetricOptions& options,
+void DrawAdaptively(const GraspModel& model, const MetricOptions& options,
                     std::vector<NoisyGrasp>* grasps) {
   int draws = std::min(options.num_draws, std::max(kFewestDraws, options.num_draws / 5));
-  for (NoisyGrasp& noisy : *grasps) DrawUntil(scene, com, options, draws, &noisy);
+  for (NoisyGrasp& noisy : *grasps) DrawUntil(model, options, draws, &noisy);
   std::vector<double> means(grasps->size());
   while (draws < options.num_draws && !grasps->empty()) {
     for (std::size_t i = 0; i < grasps->size(); ++i) means[i] = (*grasps)[i].Mean();
@@ -61,7 +61,7 @@ void DrawAdaptively(const RayScene& scene, const Eigen::Vector3d& com, const Met
       const double uncertainty = Uncertainty(noisy, usual_variance);
       const bool open =
           noisy.Mean() + uncertainty >= target.low && noisy.Mean() - uncertainty <= target.high;
-      if (open) DrawUntil(scene, com, options, draws, &noisy);
+      if (open) DrawUntil(model, options, draws, &noisy);
     }
   }
 }

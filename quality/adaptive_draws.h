@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "antigrasp/quality/robust_quality.h"
+#include "antigrasp/quality/grasp_model.h"
 
 namespace antigrasp {
 
@@ -17,8 +17,8 @@ struct NoisyGrasp {
   double Mean() const { return draws > 0 ? sum / draws : 0.0; }
 };
 
-// Draws until every grasp has options.num_draws: RobustQuality of each.
-void DrawAll(const RayScene& scene, const Eigen::Vector3d& com, const MetricOptions& options,
+// Draws until every grasp has options.num_draws of the model's executed qualities.
+void DrawAll(const GraspModel& model, const MetricOptions& options,
              std::vector<NoisyGrasp>* grasps);
 
 // Fewer draws for about the same percentile (successive halving, Karnin et al. 2013, about a
@@ -26,7 +26,7 @@ void DrawAll(const RayScene& scene, const Eigen::Vector3d& com, const MetricOpti
 // whose own interval still meets the 95 % interval of options.percentile. A grasp that stays in to
 // the end has exactly its full quality; the others are decided to lie above or below, and only
 // that enters the percentile. The mean over grasps is rougher than with DrawAll.
-void DrawAdaptively(const RayScene& scene, const Eigen::Vector3d& com, const MetricOptions& options,
+void DrawAdaptively(const GraspModel& model, const MetricOptions& options,
                     std::vector<NoisyGrasp>* grasps);
 
 }  // namespace antigrasp

@@ -13,6 +13,7 @@ struct Contact {
 };
 
 // A parallel-jaw grasp: the two contacts of jaws that close along +axis (first contact) and -axis.
+// Other hands say in their GraspModel what the fields mean to them.
 struct Grasp {
   std::array<Contact, 2> contacts;
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // midpoint of the contacts

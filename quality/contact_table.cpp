@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "antigrasp/core/check.h"
 #include "antigrasp/core/csv_reader.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
@@ -16,13 +15,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kUnit = 1e-6;  // how far a given t1 may be from a unit vector across its normal
-
-Torsion TorsionNamed(const std::string& name) {
-  if (name == "none") return Torsion::kNone;
-  if (name == "uniform_pressure") return Torsion::kUniformPressure;
-  AG_CHECK(name == "dexnet", "unknown torsion " + name);
-  return Torsion::kDexNet;
-}
 
 // The columns of a table and typed access to the fields of its current row.
 class Table {
@@ -207,7 +199,7 @@ void Bind(OptionTable* table, ContactTableOptions* options) {
   table->Add(
       "contact.torque_scale", &o.torque_scale, 1e-12, 1e12,
       "weight of torques against forces, 1 / unit of length, without a column torque_scaling");
-  table->Add("contact.torsion", &o.torsion, {"none", "dexnet", "uniform_pressure"},
+  table->Add("contact.torsion", &o.torsion, TorsionNames(),
              "torsion of a contact: none, dexnet (pi r^2 mu) or uniform_pressure (2/3 r mu)");
   Bind(table, &o.wrench);
 }

@@ -4,15 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/core/statistics.h"
 #include "antigrasp/mesh/ray_scene.h"
 #include "antigrasp/quality/adaptive_draws.h"
-#include "antigrasp/quality/antipodal_sampler.h"
-#include "antigrasp/quality/reachability.h"
-#include "antigrasp/quality/robust_quality.h"
+#include "antigrasp/quality/parallel_jaws.h"
 
 namespace antigrasp {
 namespace {
@@ -42,29 +39,6 @@ double ScaleToMetres(const TriangleMesh& mesh, const MetricOptions& options) {
   return usable ? scale : 0.0;
 }
 
-void Count(GraspRejection why, RejectedGrasps* rejected) {
-  switch (why) {
-    case GraspRejection::kNoOpposite:
-      ++rejected->no_opposite;
-      break;
-    case GraspRejection::kSlips:
-      ++rejected->slips;
-      break;
-    case GraspRejection::kJawBlocked:
-      ++rejected->jaw_blocked;
-      break;
-  }
-}
-
-// Finds the gripper's way in to the grasp; false when every one collides. Without a gripper nothing
-// is looked for.
-bool FindApproach(const std::optional<GripperCollision>& gripper, double opening, Grasp* grasp) {
-  if (!gripper) return true;
-  const auto approach = gripper->FreeApproach(*grasp, opening);
-  if (approach) grasp->approach = *approach;
-  return approach.has_value();
-}
-
 // Two grasps are one when their contacts coincide, whichever jaw holds which.
 bool SameGrasp(const Grasp& a, const Grasp& b, double separation) {
   const auto near = [&](std::size_t i, std::size_t j) {
@@ -81,42 +55,39 @@ bool IsCopy(const Grasp& grasp, const std::vector<NoisyGrasp>& kept, double sepa
 
 // Samples grasps until enough are found. A candidate's noise belongs to its number among the
 // candidates, so that the same candidate meets the same noise on a changed object.
-std::vector<NoisyGrasp> SampleGrasps(const TriangleMesh& mesh, const RayScene& scene,
-                                     const MetricOptions& options, std::uint64_t seed,
-                                     std::uint64_t object, Graspability* result) {
+std::vector<NoisyGrasp> SampleGrasps(const GraspModel& model, const MetricOptions& options,
+                                     std::uint64_t seed, std::uint64_t object,
+                                     Graspability* result) {
+  for (std::string& name : model.Reasons()) result->rejected.reasons.push_back({std::move(name)});
   std::vector<NoisyGrasp> kept;
-  const AntipodalSampler sampler(mesh, scene, options.friction, options.jaw_opening);
-  if (!(sampler.area() > 0.0)) return kept;
-  std::optional<GripperCollision> gripper;
-  if (options.collision == "gripper") gripper.emplace(mesh, scene, options.gripper);
   while (result->attempts < options.max_attempts &&
          static_cast<int>(kept.size()) < options.num_grasps) {
     const auto candidate = static_cast<std::uint64_t>(result->attempts++);
     RngStream grasp_rng(seed, "grasp", object, candidate);
-    GraspRejection why{};
-    auto grasp = sampler.Try(&grasp_rng, &why);
-    if (!grasp) {
-      Count(why, &result->rejected);
-    } else if (IsCopy(*grasp, kept, options.grasp_separation)) {
+    std::size_t why = 0;
+    auto grasp = model.Candidate(&grasp_rng, &why);
+    if (grasp && IsCopy(*grasp, kept, options.grasp_separation)) {
       ++result->rejected.copies;
-    } else if (!FindApproach(gripper, options.jaw_opening, &*grasp)) {
-      ++result->rejected.gripper_collides;
-    } else {
+    } else if (grasp && model.Reach(&*grasp, &why)) {
       kept.push_back({*grasp, RngStream(seed, "noise", object, candidate)});
+    } else {
+      ++result->rejected.reasons.at(why).count;
     }
   }
   return kept;
 }
 
-void SampleAndScore(const TriangleMesh& mesh, const MetricOptions& options, std::uint64_t seed,
-                    std::uint64_t object, Graspability* result) {
+void SampleAndScore(const TriangleMesh& mesh, const MakeGraspModel& make,
+                    const MetricOptions& options, std::uint64_t seed, std::uint64_t object,
+                    Graspability* result) {
   const RayScene scene(mesh);
-  std::vector<NoisyGrasp> grasps = SampleGrasps(mesh, scene, options, seed, object, result);
-  const Eigen::Vector3d com = CenterOfMass(mesh);
+  const auto model = make({mesh, scene, CenterOfMass(mesh)}, options);
+  if (model == nullptr) return;
+  std::vector<NoisyGrasp> grasps = SampleGrasps(*model, options, seed, object, result);
   if (options.adaptive) {
-    DrawAdaptively(scene, com, options, &grasps);
+    DrawAdaptively(*model, options, &grasps);
   } else {
-    DrawAll(scene, com, options, &grasps);
+    DrawAll(*model, options, &grasps);
   }
   for (const NoisyGrasp& noisy : grasps) {
     result->grasps.push_back({noisy.grasp, noisy.Mean(), noisy.draws});
@@ -148,13 +119,14 @@ Graspability NotEvaluable() {
   return result;
 }
 
-Graspability Evaluate(const TriangleMesh& mesh, const MetricOptions& options, std::uint64_t seed,
-                      std::uint64_t object) {
+Graspability Evaluate(const TriangleMesh& mesh, const MakeGraspModel& make,
+                      const MetricOptions& options, std::uint64_t seed, std::uint64_t object) {
   const double scale = ScaleToMetres(mesh, options);
   if (!(scale > 0.0)) return NotEvaluable();
   Graspability result;
   result.scale = scale;
-  SampleAndScore(Transformed(mesh, scale, Eigen::Vector3d::Zero()), options, seed, object, &result);
+  SampleAndScore(Transformed(mesh, scale, Eigen::Vector3d::Zero()), make, options, seed, object,
+                 &result);
   if (result.grasps.empty()) {
     result.status = GraspabilityStatus::kNoGrasps;
     return result;
@@ -183,26 +155,33 @@ std::string_view Name(GraspabilityStatus status) {
 }
 
 Graspability EvaluateGraspability(const TriangleMesh& mesh, const MetricOptions& options,
-                                  std::uint64_t seed, std::uint64_t object) {
+                                  std::uint64_t seed, std::uint64_t object,
+                                  const MakeGraspModel& make) {
   const auto start = std::chrono::steady_clock::now();
-  Graspability result = Evaluate(mesh, options, seed, object);
+  Graspability result = Evaluate(mesh, make, options, seed, object);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
 
-std::vector<Graspability> EvaluateAll(const std::vector<TriangleMesh>& meshes,
-                                      const MetricOptions& options, std::uint64_t seed,
-                                      std::uint64_t first_object, int threads,
-                                      const ProgressFn& progress) {
-  std::vector<Graspability> results(meshes.size());
+Graspability EvaluateGraspability(const TriangleMesh& mesh, const MetricOptions& options,
+                                  std::uint64_t seed, std::uint64_t object) {
+  return EvaluateGraspability(mesh, options, seed, object, &ParallelJaws);
+}
+
+std::vector<Graspability> ScoreAll(std::int64_t count, const MeshOfObject& mesh,
+                                   const StreamOfObject& stream, const MetricOptions& options,
+                                   std::uint64_t seed, int threads, const ProgressFn& progress) {
+  std::vector<Graspability> scores(static_cast<std::size_t>(count), NotEvaluable());
   ParallelFor(
-      static_cast<std::int64_t>(meshes.size()), threads,
+      count, threads,
       [&](std::int64_t i) {
-        const auto slot = static_cast<std::size_t>(i);
-        results[slot] = EvaluateGraspability(meshes[slot], options, seed, first_object + slot);
+        const TriangleMesh* const object = mesh(i);
+        if (object == nullptr) return;
+        scores[static_cast<std::size_t>(i)] =
+            EvaluateGraspability(*object, options, seed, stream(i));
       },
       progress);
-  return results;
+  return scores;
 }
 
 }  // namespace antigrasp

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -8,13 +9,15 @@
 #include "antigrasp/core/statistics.h"
 #include "antigrasp/mesh/triangle_mesh.h"
 #include "antigrasp/quality/contact.h"
+#include "antigrasp/quality/grasp_model.h"
 #include "antigrasp/quality/metric_options.h"
+#include "antigrasp/quality/rejected_grasps.h"
 
 namespace antigrasp {
 
 struct ScoredGrasp {
   Grasp grasp;           // object frame after rescaling, metres
-  double quality = 0.0;  // robust quality: mean epsilon over the draws (paper III-B)
+  double quality = 0.0;  // robust quality: mean over the draws (paper III-B: of epsilon)
   int draws = 0;         // num_draws, or fewer when adaptive
 };
 
@@ -25,15 +28,6 @@ enum class GraspabilityStatus {
   kNotEvaluable  // empty, non-finite or zero-extent mesh: graspability NaN
 };
 std::string_view Name(GraspabilityStatus status);
-
-// Why candidates were not kept; their sum and the grasps are the attempts.
-struct RejectedGrasps {
-  int no_opposite = 0;       // nothing to close on within the opening
-  int slips = 0;             // not antipodal
-  int jaw_blocked = 0;       // a jaw starts inside the object or meets another face first
-  int copies = 0;            // of a grasp already kept
-  int gripper_collides = 0;  // antipodal, but the gripper collides from every angle
-};
 
 // The graspability of one object: lower = harder to grasp.
 struct Graspability {
@@ -57,10 +51,21 @@ struct Graspability {
 Graspability EvaluateGraspability(const TriangleMesh& mesh, const MetricOptions& options,
                                   std::uint64_t seed, std::uint64_t object);
 
-// Mesh i is object first_object + i. Same values for any number of threads (0 = all).
-std::vector<Graspability> EvaluateAll(const std::vector<TriangleMesh>& meshes,
-                                      const MetricOptions& options, std::uint64_t seed,
-                                      std::uint64_t first_object = 0, int threads = 0,
-                                      const ProgressFn& progress = nullptr);
+// The same with grasps of another model in place of ParallelJaws.
+Graspability EvaluateGraspability(const TriangleMesh& mesh, const MetricOptions& options,
+                                  std::uint64_t seed, std::uint64_t object,
+                                  const MakeGraspModel& make);
+
+// Of object i of a range. The mesh is asked for once, on the thread that scores it, and may be made
+// or read then; nullptr: the object is not scored.
+using MeshOfObject = std::function<const TriangleMesh*(std::int64_t)>;
+using StreamOfObject = std::function<std::uint64_t(std::int64_t)>;  // number of its random stream
+
+// EvaluateGraspability of the objects 0 to count - 1; kNotEvaluable for those without a mesh. Same
+// values for any number of threads (0 = all).
+std::vector<Graspability> ScoreAll(std::int64_t count, const MeshOfObject& mesh,
+                                   const StreamOfObject& stream, const MetricOptions& options,
+                                   std::uint64_t seed, int threads,
+                                   const ProgressFn& progress = nullptr);
 
 }  // namespace antigrasp

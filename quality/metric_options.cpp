@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/quality/epsilon.h"
 
 namespace antigrasp {
 
@@ -12,6 +13,7 @@ void ApplyMetricPreset(const std::string& name, MetricOptions* options) {
     preset.friction = 0.5;
     preset.cone_edges = 8;
     preset.finger_radius = 0.005;  // neither configuration sets it: the code's own default
+    preset.torsion = "dexnet";
     preset.object_min_extent = 0.040;
     preset.jaw_opening = 0.05;  // gripper yumi_metal_spline
     preset.percentile = 75.0;   // of the paper and of EGAD; Dex-Net ranks single grasps
@@ -63,10 +65,12 @@ void Bind(OptionTable* table, MetricOptions* options) {
   MetricOptions& o = *options;
   table->Add("metric.friction", &o.friction, 0.0, 10.0, "friction coefficient");
   table->Add("metric.cone_edges", &o.cone_edges, 3, 64, "edges of the friction pyramid");
-  table->Add("metric.finger_radius", &o.finger_radius, 0.0, 1.0,
-             "soft finger contact radius, m (torsion +-pi r^2 mu)");
+  table->Add("metric.finger_radius", &o.finger_radius, 0.0, 1.0, "soft finger contact radius, m");
   table->Add("metric.torque_scale", &o.torque_scale, 1e-6, 1e9,
              "weight of torques against forces, 1/m");
+  table->Add("metric.torsion", &o.torsion, TorsionNames(),
+             "torque that a contact carries about its normal, per force: none (two such fingers "
+             "score 0), dexnet (pi r^2 mu) or uniform_pressure (2/3 r mu)");
   table->Add("metric.object_min_extent", &o.object_min_extent, 0.0, 100.0,
              "smallest bounding-box extent after rescaling, m; 0 = as it is");
   table->Add("metric.jaw_opening", &o.jaw_opening, 1e-6, 100.0, "widest grasp, m");

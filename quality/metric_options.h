@@ -14,8 +14,9 @@ struct MetricOptions {
   // Contact and wrench model (Dex-Net 1.0).
   double friction = 0.5;
   int cone_edges = 8;
-  double finger_radius = 0.005;  // soft finger: torsion +-pi r^2 mu
-  double torque_scale = 1000.0;  // 1 / m
+  double finger_radius = 0.005;    // soft finger
+  double torque_scale = 1000.0;    // 1 / m
+  std::string torsion = "dexnet";  // none, dexnet, uniform_pressure (Torsion in epsilon.h)
   // Object and gripper.
   double object_min_extent = 0.040;  // smallest bounding-box extent after rescaling; 0 = as it is
   double jaw_opening = 0.05;         // widest grasp

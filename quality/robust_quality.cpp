@@ -1,51 +1,14 @@
 #include "antigrasp/quality/robust_quality.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-
-#include "antigrasp/quality/epsilon.h"
 #include "antigrasp/quality/jaw_closing.h"
 
 namespace antigrasp {
-namespace {
 
 using Eigen::Vector3d;
 
-Vector3d NormalVector(double std, RngStream* rng) {
-  Vector3d v;
-  for (int k = 0; k < 3; ++k) v[k] = std * rng->Normal();
-  return v;
-}
-
-// `point` turned by the rotation vector `turn` (Rodrigues).
-Vector3d Turned(const Vector3d& point, const Vector3d& turn) {
-  const double angle = turn.norm();
-  if (!(angle > 0.0)) return point;
-  const Vector3d axis = turn / angle;
-  const double cosine = std::cos(angle);
-  return cosine * point + std::sin(angle) * axis.cross(point) +
-         (1.0 - cosine) * axis.dot(point) * axis;
-}
-
-}  // namespace
-
-NoiseDraw DrawNoise(const MetricOptions& options, RngStream* rng) {
-  NoiseDraw draw;
-  draw.object_translation = NormalVector(options.object_translation_std, rng);
-  draw.object_rotation = NormalVector(options.object_rotation_std, rng);
-  draw.grasp_translation = NormalVector(options.grasp_translation_std, rng);
-  draw.grasp_rotation = NormalVector(options.grasp_rotation_std, rng);
-  draw.friction = std::max(0.0, options.friction + options.friction_std * rng->Normal());
-  return draw;
-}
-
-JawPose ExecutedPose(const Grasp& grasp, const Vector3d& com, const NoiseDraw& noise) {
-  const Vector3d center_in_world = grasp.center + noise.grasp_translation;
-  const Vector3d axis_in_world = Turned(grasp.axis, noise.grasp_rotation);
-  const Vector3d back = -noise.object_rotation;
-  return {Turned(center_in_world - com - noise.object_translation, back) + com,
-          Turned(axis_in_world, back).normalized()};
+WrenchModel WrenchModelOf(const MetricOptions& options, double friction) {
+  return {friction, options.cone_edges, options.finger_radius, options.torque_scale,
+          TorsionNamed(options.torsion)};
 }
 
 double ExecutedQuality(const RayScene& scene, const Vector3d& com, const Grasp& grasp,
@@ -54,9 +17,7 @@ double ExecutedQuality(const RayScene& scene, const Vector3d& com, const Grasp& 
   const auto contacts =
       CloseJaws(scene, pose.center, pose.axis, options.jaw_opening, noise.friction);
   if (!contacts) return 0.0;
-  const WrenchModel model{noise.friction, options.cone_edges, options.finger_radius,
-                          options.torque_scale};
-  return Epsilon(*contacts, com, model);
+  return Epsilon(*contacts, com, WrenchModelOf(options, noise.friction));
 }
 
 double RobustQuality(const RayScene& scene, const Vector3d& com, const Grasp& grasp,

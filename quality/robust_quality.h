@@ -1,33 +1,18 @@
 #pragma once
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/mesh/ray_scene.h"
 #include "antigrasp/quality/contact.h"
+#include "antigrasp/quality/epsilon.h"
+#include "antigrasp/quality/execution_noise.h"
 #include "antigrasp/quality/metric_options.h"
 
 namespace antigrasp {
 
-// One draw of everything that is uncertain when a grasp is executed (paper III-B).
-struct NoiseDraw {
-  Eigen::Vector3d object_translation = Eigen::Vector3d::Zero();
-  Eigen::Vector3d object_rotation = Eigen::Vector3d::Zero();  // rotation vector, about the com
-  Eigen::Vector3d grasp_translation = Eigen::Vector3d::Zero();
-  Eigen::Vector3d grasp_rotation = Eigen::Vector3d::Zero();  // rotation vector, about the centre
-  double friction = 0.5;
-};
-
-// Thirteen normal numbers in this order, whatever the standard deviations are, so that draws pair
-// up between objects and between noise levels.
-NoiseDraw DrawNoise(const MetricOptions& options, RngStream* rng);
-
-// Where the jaws really are, in the moved object's own frame.
-struct JawPose {
-  Eigen::Vector3d center;
-  Eigen::Vector3d axis;  // unit
-};
-JawPose ExecutedPose(const Grasp& grasp, const Eigen::Vector3d& com, const NoiseDraw& noise);
+// The metric's contacts at a friction.
+WrenchModel WrenchModelOf(const MetricOptions& options, double friction);
 
 // Epsilon of the grasp as executed under one draw: the object (its centre of mass with it) and the
 // gripper are displaced, the jaws close anew. 0 when a jaw misses, starts inside or slips.

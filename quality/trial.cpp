@@ -103,9 +103,8 @@ class Bench {
     const auto contacts =
         CloseJaws(scene_, pose.center, pose.axis, metric_.jaw_opening, noise.friction);
     if (!contacts || !ForceClosure(*contacts, noise.friction, NormalSense::kOutward)) return {};
-    const WrenchModel model{noise.friction, metric_.cone_edges, metric_.finger_radius,
-                            metric_.torque_scale};
-    return {true, Epsilon(*contacts, com_, model) > options_.min_epsilon};
+    const double epsilon = Epsilon(*contacts, com_, WrenchModelOf(metric_, noise.friction));
+    return {true, epsilon > options_.min_epsilon};
   }
 
   TriangleMesh mesh_;

@@ -69,22 +69,21 @@ std::vector<GraspedObject> GraspedObjects(const std::vector<std::string>& inputs
   }
   CheckLabels(labels, objects.size());
   const std::vector<std::string> names = DisplayNames(objects, inputs);
-  std::vector<GraspedObject> grasped(objects.size());
-  ParallelFor(
-      std::ssize(objects), threads,
+  std::vector<Graspability> scores = ScoreAll(
+      std::ssize(objects),
       [&](std::int64_t i) {
-        const auto slot = static_cast<std::size_t>(i);
-        GraspedObject& object = grasped[slot];
-        object.name = labels.empty() ? names[slot] : labels[slot];
-        object.mesh = std::move(objects[slot].mesh);
-        object.status = objects[slot].status;
-        object.score.value = kNone;
-        if (!objects[slot].ok()) return;
-        object.score = EvaluateGraspability(object.mesh, metric, seed, 0);
-        object.status = std::string(Name(object.score.status));
-        std::replace(object.status.begin(), object.status.end(), '_', ' ');
+        const InputObject& object = objects[static_cast<std::size_t>(i)];
+        return object.ok() ? &object.mesh : nullptr;
       },
+      [](std::int64_t) { return std::uint64_t{0}; }, metric, seed, threads,
       observer->Phase("scoring"));
+  std::vector<GraspedObject> grasped;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    std::string status = objects[i].ok() ? std::string(Name(scores[i].status)) : objects[i].status;
+    if (objects[i].ok()) std::replace(status.begin(), status.end(), '_', ' ');
+    grasped.push_back({labels.empty() ? names[i] : labels[i], std::move(status),
+                       std::move(objects[i].mesh), std::move(scores[i])});
+  }
   return grasped;
 }
 

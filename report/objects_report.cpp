@@ -153,18 +153,20 @@ Report ObjectsReport(const ReportSettings& settings, RunObserver* observer) {
       }
     }
   }
-  ParallelFor(
-      std::ssize(report.objects), settings.threads,
+  const std::vector<Graspability> scores = ScoreAll(
+      std::ssize(report.objects),
       [&](std::int64_t i) {
-        const auto slot = static_cast<std::size_t>(i);
-        ReportObject& object = report.objects[slot];
-        if (object.status != "ok") return;
-        const Graspability score =
-            EvaluateGraspability(object.shape.mesh, metric.metric, metric.seed, streams[slot]);
-        object.status = std::string(Name(score.status));
-        object.shape = ShapeOf(std::move(object.shape.mesh), score);
+        const ReportObject& object = report.objects[static_cast<std::size_t>(i)];
+        return object.status == "ok" ? &object.shape.mesh : nullptr;
       },
-      observer->Phase("scoring"));
+      [&](std::int64_t i) { return streams[static_cast<std::size_t>(i)]; }, metric.metric,
+      metric.seed, settings.threads, observer->Phase("scoring"));
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    ReportObject& object = report.objects[i];
+    if (object.status != "ok") continue;
+    object.status = std::string(Name(scores[i].status));
+    object.shape = ShapeOf(std::move(object.shape.mesh), scores[i]);
+  }
   return report;
 }
 

@@ -64,16 +64,49 @@ std::vector<Row> ReadRows(const fs::path& path) {
   return rows;
 }
 
-// Reads the mesh, if there is one, and evaluates it as `perturb` did. Whether it scores as the
-// table says.
-bool Fill(const fs::path& path, double expected, const SavedMetric* saved, std::uint64_t stream,
-          ReportShape* shape) {
-  if (!fs::exists(path)) return true;
-  shape->mesh = ReadMesh(path);
-  if (saved == nullptr) return true;
-  const Graspability score = EvaluateGraspability(shape->mesh, saved->metric, saved->seed, stream);
-  *shape = ShapeOf(std::move(shape->mesh), score);
-  return !shape->score || std::isnan(expected) || shape->score->graspability == expected;
+// A row has two shapes: 2 i is the one before, 2 i + 1 the one after.
+ReportShape* ShapeAt(std::int64_t i, std::vector<Row>* rows) {
+  ReportObject& object = (*rows)[static_cast<std::size_t>(i / 2)].object;
+  return i % 2 == 0 ? &object.original->shape : &object.shape;
+}
+
+fs::path FileAt(std::int64_t i, const fs::path& root, const std::vector<Row>& rows) {
+  const std::string& name = rows[static_cast<std::size_t>(i / 2)].object.name;
+  return root / (i % 2 == 0 ? "before" : "after") / (FileNameOf(name) + ".stl");
+}
+
+// Reads the meshes that are there and evaluates them as `perturb` did; without `saved` the meshes
+// alone. Whether every row scores as the table says.
+std::vector<char> ReadAndScore(const fs::path& root, const SavedMetric* saved,
+                               const ReportSettings& settings, RunObserver* observer,
+                               std::vector<Row>* rows) {
+  const SavedMetric unknown;
+  const SavedMetric& metric = saved != nullptr ? *saved : unknown;
+  std::vector<char> scored(2 * rows->size(), 0), agrees(rows->size(), 1);
+  const std::vector<Graspability> scores = ScoreAll(
+      std::ssize(scored),
+      [&](std::int64_t i) -> const TriangleMesh* {
+        const fs::path file = FileAt(i, root, *rows);
+        if (!fs::exists(file)) return nullptr;
+        ReportShape* const shape = ShapeAt(i, rows);
+        shape->mesh = ReadMesh(file);
+        if (saved == nullptr) return nullptr;
+        scored[static_cast<std::size_t>(i)] = 1;
+        return &shape->mesh;
+      },
+      [](std::int64_t i) { return static_cast<std::uint64_t>(i / 2); }, metric.metric, metric.seed,
+      settings.threads, observer->Phase("scoring"));
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    if (scored[i] == 0) continue;
+    const Row& row = (*rows)[i / 2];
+    const double expected = i % 2 == 0 ? row.before : row.after;
+    ReportShape* const shape = ShapeAt(static_cast<std::int64_t>(i), rows);
+    *shape = ShapeOf(std::move(shape->mesh), scores[i]);
+    const bool other =
+        shape->score && !std::isnan(expected) && shape->score->graspability != expected;
+    if (other) agrees[i / 2] = 0;
+  }
+  return agrees;
 }
 
 }  // namespace
@@ -100,22 +133,8 @@ Report PerturbedReport(const std::string& folder, const ReportSettings& settings
   }
   std::vector<Row> rows = ReadRows(root / "perturb.csv");
   if (settings.limit > 0 && rows.size() > settings.limit) rows.resize(settings.limit);
-  std::vector<char> agrees(rows.size(), 1);
-  ParallelFor(
-      std::ssize(rows), settings.threads,
-      [&](std::int64_t i) {
-        const auto slot = static_cast<std::size_t>(i);
-        Row& row = rows[slot];
-        const std::string file = FileNameOf(row.object.name) + ".stl";
-        const auto stream = static_cast<std::uint64_t>(i);
-        const SavedMetric* const metric = saved ? &*saved : nullptr;
-        const bool before =
-            Fill(root / "before" / file, row.before, metric, stream, &row.object.original->shape);
-        const bool after =
-            Fill(root / "after" / file, row.after, metric, stream, &row.object.shape);
-        agrees[slot] = before && after ? 1 : 0;
-      },
-      observer->Phase("scoring"));
+  const std::vector<char> agrees =
+      ReadAndScore(root, saved ? &*saved : nullptr, settings, observer, &rows);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ReportObject& object = rows[i].object;
     if (agrees[i] == 0) {

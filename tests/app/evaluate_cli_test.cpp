@@ -76,10 +76,10 @@ TEST(EvaluateCli, WritesEveryNumberOfAScoreUnderItsOwnName) {
     EXPECT_EQ(Number(rows[i], "fraction_nonzero"), score.fraction_nonzero);
     EXPECT_GE(Number(rows[i], "seconds"), 0.0);
     attempts += score.attempts;
-    open += score.rejected.no_opposite;
-    slips += score.rejected.slips;
-    blocked += score.rejected.jaw_blocked;
-    collides += score.rejected.gripper_collides;
+    open += score.rejected.Of("nothing within the opening");
+    slips += score.rejected.Of("slip");
+    blocked += score.rejected.Of("jaw blocked");
+    collides += score.rejected.Of("gripper collides");
     copies += score.rejected.copies;
   }
   char line[256];

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "antigrasp/quality/graspability.h"
+#include "antigrasp/quality/parallel_jaws.h"
 #include "tests/support/shapes.h"
 
 namespace antigrasp {
@@ -56,13 +57,14 @@ NoisyGrasp Drawn(double mean, double variance) {
 // The draws that the last grasp has after one round. Twenty others of mean 1 make [1, 1] the
 // interval of the median.
 int DrawsAfterOneRound(const NoisyGrasp& last, double variance_of_others) {
-  const RayScene scene(shapes::Cube());
+  const TriangleMesh cube = shapes::Cube();
+  const RayScene scene(cube);
   MetricOptions options;
   options.percentile = 50.0;
   options.num_draws = 10;
   std::vector<NoisyGrasp> grasps(20, Drawn(1.0, variance_of_others));
   grasps.push_back(last);
-  DrawAdaptively(scene, Eigen::Vector3d::Zero(), options, &grasps);
+  DrawAdaptively(*ParallelJaws({cube, scene, Eigen::Vector3d::Zero()}, options), options, &grasps);
   EXPECT_EQ(grasps[0].draws, 10);
   return grasps.back().draws;
 }

@@ -26,13 +26,14 @@ TEST(GraspQuality, IsEpsilonAboutTheMeanOfATetrahedronsCorners) {
   options.cone_edges = 6;
   options.finger_radius = 0.007;
   options.torque_scale = 300.0;
+  options.torsion = "uniform_pressure";
   options.object_min_extent = 0.03;
   options.jaw_opening = 0.06;
   options.collision = "jaws";
   const Graspability g = EvaluateGraspability(shapes::Tetrahedron(), options, 1, 0);
   EXPECT_DOUBLE_EQ(g.scale, 0.03);
   ASSERT_GT(g.grasps.size(), 20u);
-  const WrenchModel model{1.0, 6, 0.007, 300.0};
+  const WrenchModel model{1.0, 6, 0.007, 300.0, Torsion::kUniformPressure};
   int differ = 0;
   for (const ScoredGrasp& scored : g.grasps) {
     const auto& contacts = scored.grasp.contacts;
@@ -118,11 +119,11 @@ TEST(Graspability, CountsEachCandidateUnderItsOwnReason) {
     }
   }
   EXPECT_EQ(g.attempts, 1500);
-  EXPECT_EQ(g.rejected.no_opposite, reasons[0]);
-  EXPECT_EQ(g.rejected.slips, reasons[1]);
-  EXPECT_EQ(g.rejected.jaw_blocked, reasons[2]);
+  EXPECT_EQ(g.rejected.Of("nothing within the opening"), reasons[0]);
+  EXPECT_EQ(g.rejected.Of("slip"), reasons[1]);
+  EXPECT_EQ(g.rejected.Of("jaw blocked"), reasons[2]);
   EXPECT_EQ(g.rejected.copies, copies);
-  EXPECT_EQ(g.rejected.gripper_collides, collides);
+  EXPECT_EQ(g.rejected.Of("gripper collides"), collides);
   EXPECT_EQ(g.grasps.size(), kept.size());
   for (const int count : {reasons[0], reasons[1], reasons[2], copies, turned_copies, collides}) {
     EXPECT_GT(count, 2);

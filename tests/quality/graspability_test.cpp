@@ -27,7 +27,7 @@ MetricOptions Noise(const std::string& preset) {
 void ExpectSame(const Graspability& a, const Graspability& b) {
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.attempts, b.attempts);
-  EXPECT_EQ(a.rejected.gripper_collides, b.rejected.gripper_collides);
+  EXPECT_EQ(a.rejected.Of("gripper collides"), b.rejected.Of("gripper collides"));
   if (a.status != GraspabilityStatus::kNotEvaluable) {
     EXPECT_EQ(a.value, b.value);
     EXPECT_EQ(a.ci_low, b.ci_low);
@@ -226,7 +226,8 @@ TEST(Graspability, EachGraspCanBeRepeatedFromTheStreamsOfItsCandidate) {
 }
 
 int Sum(const RejectedGrasps& r) {
-  return r.no_opposite + r.slips + r.jaw_blocked + r.copies + r.gripper_collides;
+  return r.Of("nothing within the opening") + r.Of("slip") + r.Of("jaw blocked") + r.copies +
+         r.Of("gripper collides");
 }
 
 TEST(Graspability, AttemptsAreTheGraspsAndTheRejectedOfEveryReason) {
@@ -237,7 +238,7 @@ TEST(Graspability, AttemptsAreTheGraspsAndTheRejectedOfEveryReason) {
       options.collision = collision;
       const Graspability g = EvaluateGraspability(mesh, options, 1, 0);
       EXPECT_EQ(g.attempts, static_cast<int>(g.grasps.size()) + Sum(g.rejected));
-      EXPECT_EQ(g.rejected.gripper_collides > 0, options.collision == "gripper");
+      EXPECT_EQ(g.rejected.Of("gripper collides") > 0, options.collision == "gripper");
     }
   }
 }
@@ -253,8 +254,9 @@ TEST(Graspability, TheGripperKeepsThoseOfTheJawsGraspsThatItReaches) {
   const Graspability reached = EvaluateGraspability(mesh, gripper, 1, 0);
   const Graspability all = EvaluateGraspability(mesh, jaws, 1, 0);
   EXPECT_EQ(reached.attempts, all.attempts);
-  EXPECT_EQ(reached.grasps.size() + static_cast<std::size_t>(reached.rejected.gripper_collides),
-            all.grasps.size());
+  EXPECT_EQ(
+      reached.grasps.size() + static_cast<std::size_t>(reached.rejected.Of("gripper collides")),
+      all.grasps.size());
   const TriangleMesh scaled = Transformed(mesh, all.scale, Vector3d::Zero());
   const RayScene scene(scaled);
   const GripperCollision collision(scaled, scene, gripper.gripper);
@@ -284,36 +286,71 @@ TEST(Graspability, ABallInAClosedBoxHasGraspsForTheJawsButNoneForTheGripper) {
   options.collision = "gripper";
   const Graspability g = EvaluateGraspability(mesh, options, 1, 0);
   for (const ScoredGrasp& scored : g.grasps) EXPECT_GT(scored.grasp.center.norm(), 0.05);
-  EXPECT_GT(g.rejected.gripper_collides, 5);
+  EXPECT_GT(g.rejected.Of("gripper collides"), 5);
 }
 
-TEST(EvaluateAll, GivesTheSameBitsForAnyNumberOfThreadsAndNumbersObjects) {
+TEST(ScoreAll, GivesTheSameBitsForAnyNumberOfThreadsAndEachObjectItsOwnStream) {
   const std::vector<TriangleMesh> meshes{shapes::Sphere(1.0, 2),
                                          shapes::Cube(),
                                          TriangleMesh{},
                                          shapes::Cylinder(0.5, 2.0, 30),
                                          shapes::Torus(2.0, 1.0, 20, 10),
                                          shapes::Tetrahedron()};
-  const auto one = EvaluateAll(meshes, {}, 3, 10, 1);
-  const auto two = EvaluateAll(meshes, {}, 3, 10, 2);
+  const auto score = [&meshes](int threads) {
+    return ScoreAll(
+        std::ssize(meshes), [&](std::int64_t i) { return &meshes[static_cast<std::size_t>(i)]; },
+        [](std::int64_t i) { return static_cast<std::uint64_t>(10 + 3 * i); }, {}, 3, threads);
+  };
+  const auto one = score(1), two = score(2);
   ASSERT_EQ(one.size(), meshes.size());
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     ExpectSame(one[i], two[i]);
-    ExpectSame(one[i], EvaluateGraspability(meshes[i], {}, 3, 10 + i));
+    ExpectSame(one[i], EvaluateGraspability(meshes[i], {}, 3, 10 + 3 * i));
   }
 }
 
-TEST(EvaluateAll, ReportsEveryObjectOnceAndNothingForNone) {
+TEST(ScoreAll, ReportsEveryObjectOnceAndNothingForNone) {
   std::vector<std::int64_t> seen;
   MetricOptions options;
   options.num_grasps = 5;
-  EvaluateAll({shapes::Cube(), shapes::Cube(), shapes::Cube()}, options, 1, 0, 2,
-              [&seen](std::int64_t done, std::int64_t total) {
-                EXPECT_EQ(total, 3);
-                seen.push_back(done);
-              });
+  const TriangleMesh cube = shapes::Cube();
+  const auto mesh = [&cube](std::int64_t) { return &cube; };
+  const auto stream = [](std::int64_t i) { return static_cast<std::uint64_t>(i); };
+  ScoreAll(3, mesh, stream, options, 1, 2, [&seen](std::int64_t done, std::int64_t total) {
+    EXPECT_EQ(total, 3);
+    seen.push_back(done);
+  });
   EXPECT_EQ(seen, (std::vector<std::int64_t>{1, 2, 3}));
-  EXPECT_TRUE(EvaluateAll({}, options, 1).empty());
+  EXPECT_TRUE(ScoreAll(0, mesh, stream, options, 1, 2).empty());
+}
+
+TEST(ScoreAll, AsksForEveryMeshOnceAndLeavesAnObjectWithoutOneUnscored) {
+  // The meshes are made when they are asked for, as a reader of files or a remesher does.
+  MetricOptions options;
+  options.num_grasps = 5;
+  std::vector<TriangleMesh> made(3);
+  std::vector<int> asked(3, 0);
+  const auto scores = ScoreAll(
+      3,
+      [&](std::int64_t i) -> const TriangleMesh* {
+        const auto slot = static_cast<std::size_t>(i);
+        ++asked[slot];
+        if (i == 1) return nullptr;
+        made[slot] = shapes::Box({1.0, 2.0, 3.0 + static_cast<double>(i)});
+        return &made[slot];
+      },
+      [](std::int64_t i) {
+        EXPECT_NE(i, 1);
+        return std::uint64_t{7};
+      },
+      options, 1, 2);
+  EXPECT_EQ(asked, (std::vector<int>{1, 1, 1}));
+  ASSERT_EQ(scores.size(), 3u);
+  EXPECT_EQ(scores[1].status, GraspabilityStatus::kNotEvaluable);
+  EXPECT_TRUE(std::isnan(scores[1].value));
+  for (const std::size_t i : {0u, 2u}) {
+    ExpectSame(scores[i], EvaluateGraspability(made[i], options, 1, 7));
+  }
 }
 
 TEST(GraspabilityStatus, EveryStatusHasItsOwnName) {

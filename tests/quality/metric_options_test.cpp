@@ -10,25 +10,10 @@ namespace {
 
 // Every field different from its default.
 MetricOptions Unusual() {
-  return {0.37,
-          6,
-          0.004,
-          900.0,
-          0.03,
-          0.06,
-          11,
-          12,
-          13,
-          2e-3,
-          60.0,
-          true,
-          0.001,
-          0.02,
-          0.003,
-          0.04,
-          0.05,
-          "jaws",
-          {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 9}};
+  return {0.37,  6,    0.004, 900.0,  "none",
+          0.03,  0.06, 11,    12,     13,
+          2e-3,  60.0, true,  0.001,  0.02,
+          0.003, 0.04, 0.05,  "jaws", {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 9}};
 }
 
 void ExpectEqual(const MetricOptions& a, const MetricOptions& b) {
@@ -36,6 +21,7 @@ void ExpectEqual(const MetricOptions& a, const MetricOptions& b) {
   EXPECT_EQ(a.cone_edges, b.cone_edges);
   EXPECT_EQ(a.finger_radius, b.finger_radius);
   EXPECT_EQ(a.torque_scale, b.torque_scale);
+  EXPECT_EQ(a.torsion, b.torsion);
   EXPECT_EQ(a.object_min_extent, b.object_min_extent);
   EXPECT_EQ(a.jaw_opening, b.jaw_opening);
   EXPECT_EQ(a.num_grasps, b.num_grasps);
@@ -66,7 +52,7 @@ TEST(MetricOptions, EveryFieldSurvivesTheConfigurationFile) {
   OptionTable out, in;
   Bind(&out, &written);
   Bind(&in, &read);
-  EXPECT_EQ(out.options().size(), 27u);
+  EXPECT_EQ(out.options().size(), 28u);
   in.ApplyText(out.Dump(), "dump");
   ExpectEqual(read, Unusual());
 }
@@ -77,6 +63,7 @@ TEST(MetricOptions, EveryKeyIsBoundToItsFieldAndEveryDefaultIsItsNumber) {
                                       "metric.cone_edges = 8",
                                       "metric.finger_radius = 0.005",
                                       "metric.torque_scale = 1000.0",
+                                      "metric.torsion = 'dexnet'",
                                       "metric.object_min_extent = 0.04",
                                       "metric.jaw_opening = 0.05",
                                       "metric.num_grasps = 100",
@@ -104,6 +91,7 @@ TEST(MetricOptions, EveryKeyIsBoundToItsFieldAndEveryDefaultIsItsNumber) {
                                                           "metric.cone_edges = 6",
                                                           "metric.finger_radius = 0.004",
                                                           "metric.torque_scale = 900.0",
+                                                          "metric.torsion = 'none'",
                                                           "metric.object_min_extent = 0.03",
                                                           "metric.jaw_opening = 0.06",
                                                           "metric.num_grasps = 11",
@@ -133,14 +121,14 @@ TEST(MetricPreset, EachIsTheseNumbers) {
   const GripperModel yumi{0.046, 0.010, 0.020, 0.010, 0.084, 0.080, 0.050, 0.100, 16};
   MetricOptions options;
   ApplyMetricPreset("dexnet", &options);
-  ExpectEqual(options, {0.5, 8, 0.005, 1000.0, 0.040, 0.05, 25, 25, 4000, 1e-4, 75.0, false, 0.01,
-                        0.01, 0.005, 0.001, 0.1, "jaws", yumi});
+  ExpectEqual(options, {0.5,  8,    0.005, 1000.0, "dexnet", 0.040, 0.05,  25,  25,     4000,
+                        1e-4, 75.0, false, 0.01,   0.01,     0.005, 0.001, 0.1, "jaws", yumi});
   ApplyMetricPreset("egad", &options);
-  ExpectEqual(options, {0.5, 8, 0.005, 100.0, 0.040, 0.05, 100, 1, 4000, 1e-4, 75.0, false, 0.0,
-                        0.0, 0.0, 0.0, 0.0, "jaws", yumi});
+  ExpectEqual(options, {0.5,  8,    0.005, 100.0, "dexnet", 0.040, 0.05, 100, 1,      4000,
+                        1e-4, 75.0, false, 0.0,   0.0,      0.0,   0.0,  0.0, "jaws", yumi});
   ApplyMetricPreset("default", &options);
-  ExpectEqual(options, {0.5, 8, 0.005, 1000.0, 0.040, 0.05, 100, 25, 4000, 1e-4, 75.0, false,
-                        0.0025, 0.01, 0.00125, 0.001, 0.1, "gripper", yumi});
+  ExpectEqual(options, {0.5,  8,    0.005, 1000.0, "dexnet", 0.040,   0.05,  100, 25,        4000,
+                        1e-4, 75.0, false, 0.0025, 0.01,     0.00125, 0.001, 0.1, "gripper", yumi});
 }
 
 TEST(MetricPreset, SetsEveryConstantWhateverWasThere) {
@@ -218,6 +206,7 @@ TEST(MetricOptions, EveryKeyRefusesAValueJustOutsideItsRange) {
   EXPECT_THROW(table.ApplyOverride("metric.percentile=100.5"), InputError);
   EXPECT_THROW(table.ApplyOverride("metric.no_such_key=1"), InputError);
   EXPECT_THROW(table.ApplyOverride("metric.collision=jaw"), InputError);
+  EXPECT_THROW(table.ApplyOverride("metric.torsion=rubber"), InputError);
   EXPECT_THROW(table.ApplyOverride("gripper.approach_angles=0"), InputError);
   ExpectEqual(options, MetricOptions{});
 }

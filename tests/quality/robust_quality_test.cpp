@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -156,6 +157,30 @@ TEST(ExecutedQuality, UsesTheConstantsOfTheOptionsAndTheFrictionOfTheDraw) {
   EXPECT_GT(turned(0.6, 0.9), 0.0);
   options.friction = 0.9;
   EXPECT_EQ(turned(0.6, 0.5), 0.0);
+}
+
+TEST(ExecutedQuality, IsThatOfTheTorsionModelOnACube) {
+  // 1 / epsilon is the length of the longest y with y . w <= 1 for every wrench w. Across the
+  // middle of a cube of 4 cm torsion alone turns about the line of the contacts: +-T, T = s pi r^2
+  // mu or s 2/3 r mu, so that y has the part 1 / T there. The edges are (+-1, f, +-H J f) for f on
+  // the octagon of radius mu, H = s 2 cm = 20 and J a quarter turn. The longest other part leaves
+  // all to one contact: (-1, p / 2, J p / (2 H)), |p| = 2 / (mu cos(pi / 8)) towards a side of the
+  // octagon.
+  const RayScene scene(shapes::Box({0.04, 0.04, 0.04}));
+  Grasp grasp;  // along x through the origin
+  MetricOptions options;
+  const auto quality = [&](const char* torsion) {
+    options.torsion = torsion;
+    return ExecutedQuality(scene, Vector3d::Zero(), grasp, options, {});
+  };
+  const double half = 1.0 / (0.5 * std::cos(std::numbers::pi / 8.0));
+  const double rest = 1.0 + (1.0 + 1.0 / 400.0) * half * half;
+  const auto expected = [rest](double t) { return 1.0 / std::sqrt(1.0 / (t * t) + rest); };
+  EXPECT_EQ(quality("none"), 0.0);
+  EXPECT_NEAR(quality("dexnet"), expected(0.0125 * std::numbers::pi), 1e-9);
+  EXPECT_NEAR(quality("dexnet"), 0.0390985, 1e-7);
+  EXPECT_NEAR(quality("uniform_pressure"), expected(5.0 / 3.0), 1e-9);
+  EXPECT_NEAR(quality("uniform_pressure"), 0.4062890, 1e-7);
 }
 
 TEST(ExecutedQuality, OpensTheJawsAsWideAsTheOptionsSay) {

@@ -65,9 +65,9 @@ struct Object {
         CloseJaws(scene, pose.center, pose.axis, metric.jaw_opening, noise.friction);
     if (!contacts || !ForceClosure(*contacts, noise.friction, NormalSense::kOutward)) return;
     ++*closed;
-    const double epsilon =
-        Epsilon(*contacts, com,
-                {noise.friction, metric.cone_edges, metric.finger_radius, metric.torque_scale});
+    const double epsilon = Epsilon(*contacts, com,
+                                   {noise.friction, metric.cone_edges, metric.finger_radius,
+                                    metric.torque_scale, Torsion::kUniformPressure});
     *held += epsilon > options.min_epsilon ? 1 : 0;
   }
 
@@ -109,7 +109,8 @@ MetricOptions UnusualMetric() {
   MetricOptions metric;
   metric.friction = 0.4;
   metric.cone_edges = 5;
-  metric.finger_radius = 0.008;
+  metric.torsion = "uniform_pressure";
+  metric.finger_radius = 0.0003;  // torsion 2/3 r mu by the torque scale: 0.016
   metric.torque_scale = 200.0;
   metric.object_min_extent = 0.042;
   metric.jaw_opening = 0.055;

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <memory>
+
+#include "antigrasp/quality/grasp_model.h"
+
+namespace antigrasp {
+
+// Two parallel jaws with a point contact each (paper III-B, Dex-Net 1.0): antipodal candidates
+// (AntipodalSampler), reached by the whole gripper or by the two jaws alone as options.collision
+// says (GripperCollision), with epsilon as their quality (ExecutedQuality).
+std::unique_ptr<const GraspModel> ParallelJaws(const GraspObject& object,
+                                               const MetricOptions& options);
+
+}  // namespace antigrasp
