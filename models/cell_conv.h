@@ -17,7 +17,9 @@ struct CellConvShape {
   std::int64_t out = 0;
 };
 
-bool HasCellConv();  // of this CPU
+// Of this CPU. Nothing below, nor of winograd_conv.h, may be called without: on other processors
+// than x86-64 it is not there (no_cell_conv.cpp).
+bool HasCellConv();
 
 // outputs = sum over taps of cells[p + t] * weight[t] + bias. panels [ceil(out / 16)][8 taps][in]
 // [16 or 8 outputs]: the weights of 16 outputs at a time, then of the last 8 if out % 16 != 0.

@@ -5,7 +5,11 @@
 // Everything with vectors is inlined: how they would be passed does not matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
 #define ANTIGRASP_INLINE __attribute__((always_inline))
+#ifdef __x86_64__
 #define ANTIGRASP_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define ANTIGRASP_CLONES
+#endif
 
 namespace antigrasp::norm {
 namespace {

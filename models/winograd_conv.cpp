@@ -97,10 +97,6 @@ class Convolution {
 }  // namespace
 }  // namespace winograd
 
-bool SuitsWinograd(const CellConvShape& s) {
-  return s.h % 2 == 1 && s.h > 1 && s.in % 64 == 0 && s.out % 16 == 0;
-}
-
 void WinogradConv(const CellConvShape& s, const float* cells, const float* weight,
                   const float* bias, float* outputs) {
   using namespace winograd;

@@ -15,7 +15,9 @@ namespace antigrasp {
 
 // Whether the shape can and should go this way: an even number of outputs along a side, and enough
 // channels for the products to outweigh the sums.
-bool SuitsWinograd(const CellConvShape& shape);
+constexpr bool SuitsWinograd(const CellConvShape& s) {
+  return s.h % 2 == 1 && s.h > 1 && s.in % 64 == 0 && s.out % 16 == 0;
+}
 
 // Like their namesakes in cell_conv.h; weight and its gradient are the layer's own,
 // [out][in / 8][4^3]: tap t of 4^3 is tap t / 2 of 2^3 and phase t % 2, along each axis.
