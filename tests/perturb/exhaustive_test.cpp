@@ -115,7 +115,7 @@ TEST(PerturbExhaustively, MovesAVertexToWhereTheSumOverItsPairsIsLargestEachCoun
   options.directions = 1000;  // the more, the finer the sums are told apart
   RngStream rng(1, "perturb");
   TriangleMesh moved = lens;
-  Eigen::Vector3d best;
+  Eigen::Vector3d best = Eigen::Vector3d::Zero();
   double largest = -1.0;
   for (int i = 0; i < options.directions; ++i) {
     moved.vertices[0] =
