@@ -284,6 +284,7 @@ TEST(Cli, ExportChecksThePrintAndTurnsTheObjectWhenAsked) {
   EXPECT_FALSE(fs::exists(folder / "x"));
 }
 
+// Over ten seconds: all networks that ship, at their full width.
 TEST(Cli, PretrainedNetworksAreSampledByNameAndMakeSolids) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/";

@@ -31,6 +31,8 @@ std::string RowOf(const ScoredSample& sample) {
   return std::string(Name(sample.score.status)) + " " + FormatDouble(sample.score.value);
 }
 
+// Some ten seconds: two whole runs, because latent mode draws its samples another way, and every
+// stage made again with one thread and with three.
 TEST(StageSamples, AreThoseThatTheRunScoredInAnyOrderAndForAnyNumberOfThreads) {
   const TempFolder folder;
   StoppingObserver observer;
