@@ -54,7 +54,8 @@ class Clone:
     def build(self, tests, cores=None):
         """The output of a build of what the tests need that failed; None when it is built."""
         rooms = {"viewer"} if tests.startswith("viewer") else set(re.findall(r"[a-z]+(?=[|)a-z]*/)", tests))
-        targets = sorted("antigrasp" if room in ("viewer", "scripts") else f"{room}_test" for room in rooms)
+        programs = {"viewer": "antigrasp", "scripts": "antigrasp", "package": "all"}
+        targets = sorted(programs.get(room, f"{room}_test") for room in rooms)
         done = self.run("cmake", "--build", "build/release", "-j", str(cores or self.cores), "--target", *targets)
         return done.stdout if done.returncode else None
 
