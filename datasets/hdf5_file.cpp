@@ -1,15 +1,21 @@
 #include "antigrasp/datasets/hdf5_file.h"
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/hdf5_handle.h"
+#include "antigrasp/datasets/hdf5_output.h"
 
 namespace antigrasp {
 namespace {
 
 using Handle = Hdf5Handle;
+
+// Of the library, which has one state for all files.
+std::recursive_mutex g_library;
+using Lock = std::lock_guard<std::recursive_mutex>;
 
 Handle Utf8Type(std::size_t bytes) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
@@ -60,9 +66,11 @@ std::optional<std::vector<std::string>> ReadStringsOf(const Handle& file_type, c
 }  // namespace
 
 struct Hdf5File::Impl {
-  QuietHdf5Errors quiet;
-  Hdf5Image image;  // outlives the file
-  Handle file;
+  std::optional<Hdf5Output> output;  // of a new file; outlives it
+  Handle file{-1, H5Fclose};
+  // The dataset that is being written, item by item.
+  Handle values{-1, H5Dclose};
+  std::vector<hsize_t> next, chunk;  // where the next item goes, and its extents
 
   Handle Attribute(const std::string& name) const {
     const bool there = H5Aexists(file.get(), name.c_str()) > 0;
@@ -72,7 +80,8 @@ struct Hdf5File::Impl {
     const bool there = H5Lexists(file.get(), name.c_str(), H5P_DEFAULT) > 0;
     return {there ? H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT) : -1, H5Dclose};
   }
-  static void Require(bool ok) {
+  void Require(bool ok) const {
+    if (output) output->RequireWritten();
     if (!ok) throw RuntimeFailure("HDF5 cannot write: out of memory, or a text over 64 KiB");
   }
 
@@ -111,35 +120,40 @@ struct Hdf5File::Impl {
 };
 
 Hdf5File::Hdf5File(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Hdf5File::~Hdf5File() = default;
+Hdf5File::~Hdf5File() {
+  const Lock lock(g_library);
+  impl_.reset();
+}
 
 std::unique_ptr<Hdf5File> Hdf5File::Open(const std::filesystem::path& path) {
-  auto impl = std::unique_ptr<Impl>(new Impl{{}, {}, {-1, H5Fclose}});
+  const Lock lock(g_library);
+  SilenceHdf5();
+  auto impl = std::make_unique<Impl>();
   impl->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!impl->file) return nullptr;
   return std::unique_ptr<Hdf5File>(new Hdf5File(std::move(impl)));
 }
 
-std::unique_ptr<Hdf5File> Hdf5File::Create() {
-  constexpr std::size_t kGrowth = std::size_t{16} << 20;
-  auto impl = std::unique_ptr<Impl>(new Impl{{}, {}, {-1, H5Fclose}});
+std::unique_ptr<Hdf5File> Hdf5File::Create(const std::filesystem::path& path) {
+  const Lock lock(g_library);
+  SilenceHdf5();
+  auto impl = std::make_unique<Impl>();
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.get(), false);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fapl_core(access.get(), kGrowth, false);
   // The file format of HDF5 1.10 (2016) has check sums on its metadata. In the default one a
   // damaged byte can lead the library out of its buffers.
   H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110);
-  // No room set aside: the end of what is used is the end of the file.
-  H5Pset_meta_block_size(access.get(), 0);
-  H5Pset_small_data_block_size(access.get(), 0);
-  impl->image.CatchFrom(access.get());
-  impl->file = Handle(H5Fcreate("memory", H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
-  Impl::Require(static_cast<bool>(impl->file));
+  impl->output.emplace(path);
+  impl->output->Catch(access.get());
+  impl->file =
+      Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
+  impl->Require(static_cast<bool>(impl->file));
   return std::unique_ptr<Hdf5File>(new Hdf5File(std::move(impl)));
 }
 
 std::optional<std::string> Hdf5File::StringAttribute(const std::string& name) const {
+  const Lock lock(g_library);
   const Handle attribute = impl_->Attribute(name);
   if (!attribute) return {};
   const Handle type(H5Aget_type(attribute.get()), H5Tclose);
@@ -152,12 +166,14 @@ std::optional<std::string> Hdf5File::StringAttribute(const std::string& name) co
 }
 
 std::optional<std::uint64_t> Hdf5File::UintAttribute(const std::string& name) const {
+  const Lock lock(g_library);
   const auto values = impl_->Numbers<std::uint64_t>(name, H5T_NATIVE_UINT64, {H5T_INTEGER});
   if (!values || values->size() != 1) return {};
   return values->front();
 }
 
 std::optional<std::vector<double>> Hdf5File::DoublesAttribute(const std::string& name) const {
+  const Lock lock(g_library);
   return impl_->Numbers<double>(name, H5T_NATIVE_DOUBLE, {H5T_FLOAT, H5T_INTEGER});
 }
 
@@ -168,6 +184,7 @@ std::optional<double> Hdf5File::DoubleAttribute(const std::string& name) const {
 }
 
 std::vector<std::uint64_t> Hdf5File::Extents(const std::string& name) const {
+  const Lock lock(g_library);
   const Handle dataset = impl_->Dataset(name);
   if (!dataset) return {};
   const Handle space(H5Dget_space(dataset.get()), H5Sclose);
@@ -179,11 +196,13 @@ std::vector<std::uint64_t> Hdf5File::Extents(const std::string& name) const {
 }
 
 std::uint64_t Hdf5File::StoredBytes(const std::string& name) const {
+  const Lock lock(g_library);
   const Handle dataset = impl_->Dataset(name);
   return dataset ? H5Dget_storage_size(dataset.get()) : 0;
 }
 
 bool Hdf5File::HoldsFloats(const std::string& name) const {
+  const Lock lock(g_library);
   const Handle dataset = impl_->Dataset(name);
   if (!dataset) return false;
   const Handle type(H5Dget_type(dataset.get()), H5Tclose);
@@ -191,6 +210,7 @@ bool Hdf5File::HoldsFloats(const std::string& name) const {
 }
 
 bool Hdf5File::ReadFloats(const std::string& name, std::uint64_t item, float* values) const {
+  const Lock lock(g_library);
   const Handle dataset = impl_->Dataset(name);
   const std::vector<std::uint64_t> extents = Extents(name);
   if (!dataset || extents.empty()) return false;
@@ -207,6 +227,7 @@ bool Hdf5File::ReadFloats(const std::string& name, std::uint64_t item, float* va
 }
 
 std::optional<std::vector<std::string>> Hdf5File::ReadStrings(const std::string& name) const {
+  const Lock lock(g_library);
   const Handle dataset = impl_->Dataset(name);
   if (!dataset) return {};
   const Handle type(H5Dget_type(dataset.get()), H5Tclose);
@@ -217,6 +238,7 @@ std::optional<std::vector<std::string>> Hdf5File::ReadStrings(const std::string&
 }
 
 void Hdf5File::WriteAttribute(const std::string& name, const std::string& value) {
+  const Lock lock(g_library);
   std::string padded = value;
   padded.resize(std::max<std::size_t>(value.size(), 1));  // HDF5 has no strings of length 0
   impl_->Write(name, {H5Screate(H5S_SCALAR), H5Sclose}, Utf8Type(padded.size()).get(),
@@ -224,45 +246,59 @@ void Hdf5File::WriteAttribute(const std::string& name, const std::string& value)
 }
 
 void Hdf5File::WriteAttribute(const std::string& name, std::uint64_t value) {
+  const Lock lock(g_library);
   impl_->Write(name, {H5Screate(H5S_SCALAR), H5Sclose}, H5T_NATIVE_UINT64, &value);
 }
 
 void Hdf5File::WriteAttribute(const std::string& name, double value) {
+  const Lock lock(g_library);
   impl_->Write(name, {H5Screate(H5S_SCALAR), H5Sclose}, H5T_NATIVE_DOUBLE, &value);
 }
 
 void Hdf5File::WriteAttribute(const std::string& name, const std::vector<double>& values) {
+  const Lock lock(g_library);
   const hsize_t count = values.size();
   impl_->Write(name, {H5Screate_simple(1, &count, nullptr), H5Sclose}, H5T_NATIVE_DOUBLE,
                values.data());
 }
 
-void Hdf5File::WriteFloats(const std::string& name, const std::vector<const float*>& items,
-                           const std::vector<std::uint64_t>& item_extents) {
-  std::vector<hsize_t> extents(1, items.size()), chunk(1, 1), start(item_extents.size() + 1, 0);
+void Hdf5File::CreateFloats(const std::string& name, std::uint64_t count,
+                            const std::vector<std::uint64_t>& item_extents) {
+  const Lock lock(g_library);
+  std::vector<hsize_t> extents(1, count), chunk(1, 1);
   extents.insert(extents.end(), item_extents.begin(), item_extents.end());
   chunk.insert(chunk.end(), item_extents.begin(), item_extents.end());
   const int rank = static_cast<int>(extents.size());
   const Handle space(H5Screate_simple(rank, extents.data(), nullptr), H5Sclose);
-  const Handle chunk_space(H5Screate_simple(rank, chunk.data(), nullptr), H5Sclose);
   const Handle properties = impl_->DatasetProperties();
   H5Pset_chunk(properties.get(), rank, chunk.data());
   H5Pset_shuffle(properties.get());
   H5Pset_deflate(properties.get(), 4);
   H5Pset_fletcher32(properties.get());  // damage is an error, not another shape
-  const Handle dataset(H5Dcreate2(impl_->file.get(), name.c_str(), H5T_IEEE_F32LE, space.get(),
-                                  H5P_DEFAULT, properties.get(), H5P_DEFAULT),
-                       H5Dclose);
-  Impl::Require(static_cast<bool>(dataset));
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    start[0] = i;
-    H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, chunk.data(), nullptr);
-    Impl::Require(H5Dwrite(dataset.get(), H5T_NATIVE_FLOAT, chunk_space.get(), space.get(),
-                           H5P_DEFAULT, items[i]) >= 0);
-  }
+  impl_->values = Handle(H5Dcreate2(impl_->file.get(), name.c_str(), H5T_IEEE_F32LE, space.get(),
+                                    H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+                         H5Dclose);
+  impl_->Require(static_cast<bool>(impl_->values));
+  impl_->next.assign(extents.size(), 0);
+  impl_->chunk = std::move(chunk);
+}
+
+void Hdf5File::AppendFloats(const float* values) {
+  const Lock lock(g_library);
+  const Handle space(H5Dget_space(impl_->values.get()), H5Sclose);
+  const Handle chunk_space(
+      H5Screate_simple(static_cast<int>(impl_->chunk.size()), impl_->chunk.data(), nullptr),
+      H5Sclose);
+  H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, impl_->next.data(), nullptr, impl_->chunk.data(),
+                      nullptr);
+  impl_->Require(H5Dwrite(impl_->values.get(), H5T_NATIVE_FLOAT, chunk_space.get(), space.get(),
+                          H5P_DEFAULT, values) >= 0);
+  ++impl_->next[0];
 }
 
 void Hdf5File::WriteStrings(const std::string& name, const std::vector<std::string>& values) {
+  const Lock lock(g_library);
+  impl_->Require(impl_->values.Release());  // what is before these in the file is all there
   std::size_t bytes = 1;
   for (const std::string& value : values) bytes = std::max(bytes, value.size());
   std::vector<char> buffer(bytes * values.size() + 1, '\0');
@@ -277,15 +313,14 @@ void Hdf5File::WriteStrings(const std::string& name, const std::vector<std::stri
   const Handle dataset(H5Dcreate2(impl_->file.get(), name.c_str(), type.get(), space.get(),
                                   H5P_DEFAULT, properties.get(), H5P_DEFAULT),
                        H5Dclose);
-  Impl::Require(dataset && H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                                    buffer.data()) >= 0);
+  impl_->Require(dataset && H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                                     buffer.data()) >= 0);
 }
 
-std::string Hdf5File::Bytes() {
-  Impl::Require(H5Fflush(impl_->file.get(), H5F_SCOPE_LOCAL) >= 0);
-  const ssize_t used = H5Fget_file_image(impl_->file.get(), nullptr, 0);  // the buffer is longer
-  Impl::Require(used > 0 && impl_->file.Release() && impl_->image.data() != nullptr);
-  return {static_cast<const char*>(impl_->image.data()), static_cast<std::size_t>(used)};
+void Hdf5File::Close() {
+  const Lock lock(g_library);
+  const bool closed = impl_->values.Release() && impl_->file.Release();
+  impl_->Require(closed);
 }
 
 }  // namespace antigrasp

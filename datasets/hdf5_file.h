@@ -11,13 +11,13 @@ namespace antigrasp {
 
 // The little of HDF5 that shape files need, without its header. Reading returns nothing when the
 // item is missing or of another type, and lets the caller say what was expected; nothing is
-// printed. The library underneath is not thread-safe: use files from one thread at a time.
+// printed. The library underneath is not thread-safe: any thread may call, one at a time gets in.
 class Hdf5File {
  public:
   // Null when the path is not a readable HDF5 file.
   static std::unique_ptr<Hdf5File> Open(const std::filesystem::path& path);
-  // A new file in memory: the library never meets a full disk, which it does not survive.
-  static std::unique_ptr<Hdf5File> Create();
+  // A new file, written to disk as it grows and whole after Close().
+  static std::unique_ptr<Hdf5File> Create(const std::filesystem::path& path);
   ~Hdf5File();
 
   std::optional<std::string> StringAttribute(const std::string& name) const;
@@ -35,17 +35,18 @@ class Hdf5File {
   bool ReadFloats(const std::string& name, std::uint64_t item, float* values) const;
   std::optional<std::vector<std::string>> ReadStrings(const std::string& name) const;
 
-  // All writing throws RuntimeFailure when the library refuses (out of memory).
+  // All writing throws RuntimeFailure when the library refuses (out of memory) or the disk is full.
   void WriteAttribute(const std::string& name, const std::string& value);
   void WriteAttribute(const std::string& name, std::uint64_t value);
   void WriteAttribute(const std::string& name, const std::vector<double>& values);
   void WriteAttribute(const std::string& name, double value);
-  // float32 [items.size(), item_extents...], one chunk an item: shuffled, deflated, with check
-  // sums.
-  void WriteFloats(const std::string& name, const std::vector<const float*>& items,
-                   const std::vector<std::uint64_t>& item_extents);
+  // float32 [count, item_extents...], one chunk an item: shuffled, deflated, with check sums. Then
+  // its items, one after the other.
+  void CreateFloats(const std::string& name, std::uint64_t count,
+                    const std::vector<std::uint64_t>& item_extents);
+  void AppendFloats(const float* values);
   void WriteStrings(const std::string& name, const std::vector<std::string>& values);
-  std::string Bytes();  // closes the file and gives it whole, to be written to disk
+  void Close();  // the last call
 
  private:
   struct Impl;

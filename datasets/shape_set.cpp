@@ -17,18 +17,6 @@ constexpr const char* kFormat = "antigrasp.sdf";
 constexpr const char* kWholeFile =
     "an antigrasp SDF file (HDF5 with attribute format = \"antigrasp.sdf\")";
 
-void CheckConsistent(const ShapeSet& set) {
-  AG_CHECK(set.names.size() == set.grids.size(), "a shape set needs one name for each grid");
-  if (set.grids.empty()) return;
-  const SdfGrid& first = set.grids.front();
-  const auto n = static_cast<std::size_t>(first.n);
-  for (const SdfGrid& grid : set.grids) {
-    AG_CHECK(grid.n == first.n && grid.spacing == first.spacing && grid.origin == first.origin,
-             "the grids of a shape set have one size and place");
-    AG_CHECK(grid.values.size() == n * n * n, "grid size");
-  }
-}
-
 // Every way in which a file can be wrong, as one InputError.
 class Reader {
  public:
@@ -96,17 +84,13 @@ class Reader {
     Fail("no usable dataset /names", "dataset /names of " + std::to_string(count) + " strings");
   }
 
-  std::vector<SdfGrid> Grids(const ShapeSetInfo& info, const Eigen::Vector3d& origin) const {
+  SdfGrid Grid(int i, const ShapeSetInfo& info, const Eigen::Vector3d& origin) const {
     const auto n = static_cast<std::size_t>(info.n);
-    std::vector<SdfGrid> grids;
-    for (int i = 0; i < info.count; ++i) {
-      SdfGrid grid{info.n, info.spacing, origin, std::vector<float>(n * n * n)};
-      if (!file_->ReadFloats("/sdf", static_cast<std::uint64_t>(i), grid.values.data())) {
-        Fail("grid " + std::to_string(i) + " of /sdf cannot be read", "an undamaged file");
-      }
-      grids.push_back(std::move(grid));
+    SdfGrid grid{info.n, info.spacing, origin, std::vector<float>(n * n * n)};
+    if (!file_->ReadFloats("/sdf", static_cast<std::uint64_t>(i), grid.values.data())) {
+      Fail("grid " + std::to_string(i) + " of /sdf cannot be read", "an undamaged file");
     }
-    return grids;
+    return grid;
   }
 
  private:
@@ -132,39 +116,97 @@ class Reader {
 
 }  // namespace
 
+struct ShapeSetWriter::Impl {
+  Impl(const std::filesystem::path& path, ShapeSet set, std::size_t grids)
+      : target(path), about(std::move(set)), count(grids) {}
+
+  AtomicFile target;
+  ShapeSet about;  // its names grow
+  std::size_t count;
+  SdfGrid first{};  // without its values
+  std::unique_ptr<Hdf5File> file;
+
+  // What all grids share.
+  void Begin(const SdfGrid& grid) {
+    first = {grid.n, grid.spacing, grid.origin, {}};
+    const auto n = static_cast<std::uint64_t>(grid.n);
+    file = Hdf5File::Create(target.temp_path());
+    file->WriteAttribute("format", std::string(kFormat));
+    file->WriteAttribute("version", kVersion);
+    file->WriteAttribute("kind", about.kind);
+    file->WriteAttribute("seed", about.seed);
+    file->WriteAttribute("spacing", grid.spacing);
+    file->WriteAttribute("origin",
+                         std::vector<double>{grid.origin.x(), grid.origin.y(), grid.origin.z()});
+    file->WriteAttribute("sign", std::string("positive inside"));
+    file->WriteAttribute("unit", std::string("side of the unit cube"));
+    file->WriteAttribute("truncation", about.truncation);
+    file->WriteAttribute("provenance", about.provenance);
+    file->CreateFloats("/sdf", count, {n, n, n});
+  }
+};
+
+ShapeSetWriter::ShapeSetWriter(const std::filesystem::path& path, ShapeSet about, std::size_t count)
+    : impl_(std::make_unique<Impl>(path, std::move(about), count)) {
+  impl_->about.names.clear();
+  impl_->about.grids.clear();
+}
+
+ShapeSetWriter::~ShapeSetWriter() = default;
+
+void ShapeSetWriter::Add(std::string name, const SdfGrid& grid) {
+  std::vector<std::string>& names = impl_->about.names;
+  AG_CHECK(names.size() < impl_->count, "no more grids than were announced");
+  if (names.empty()) impl_->Begin(grid);
+  const SdfGrid& first = impl_->first;
+  const auto n = static_cast<std::size_t>(first.n);
+  AG_CHECK(grid.n == first.n && grid.spacing == first.spacing && grid.origin == first.origin,
+           "the grids of a shape set have one size and place");
+  AG_CHECK(grid.values.size() == n * n * n, "grid size");
+  impl_->file->AppendFloats(grid.values.data());
+  names.push_back(std::move(name));
+}
+
+void ShapeSetWriter::Commit() {
+  AG_CHECK(impl_->about.names.size() == impl_->count, "as many grids as were announced");
+  if (impl_->count == 0) impl_->Begin(SdfGrid{});
+  impl_->file->WriteStrings("/names", impl_->about.names);
+  impl_->file->Close();
+  impl_->target.Commit();
+}
+
 void WriteShapeSet(const std::filesystem::path& path, const ShapeSet& set) {
-  CheckConsistent(set);
-  const SdfGrid grid = set.grids.empty() ? SdfGrid{} : set.grids.front();
-  const auto n = static_cast<std::uint64_t>(grid.n);
-  std::vector<const float*> values;
-  for (const SdfGrid& g : set.grids) values.push_back(g.values.data());
-  const auto file = Hdf5File::Create();
-  file->WriteAttribute("format", std::string(kFormat));
-  file->WriteAttribute("version", kVersion);
-  file->WriteAttribute("kind", set.kind);
-  file->WriteAttribute("seed", set.seed);
-  file->WriteAttribute("spacing", grid.spacing);
-  file->WriteAttribute("origin",
-                       std::vector<double>{grid.origin.x(), grid.origin.y(), grid.origin.z()});
-  file->WriteAttribute("sign", std::string("positive inside"));
-  file->WriteAttribute("unit", std::string("side of the unit cube"));
-  file->WriteAttribute("truncation", set.truncation);
-  file->WriteAttribute("provenance", set.provenance);
-  file->WriteFloats("/sdf", values, {n, n, n});
-  file->WriteStrings("/names", set.names);
-  WriteFileAtomic(path, file->Bytes());
+  AG_CHECK(set.names.size() == set.grids.size(), "a shape set needs one name for each grid");
+  ShapeSetWriter writer(path, {set.kind, set.seed, set.provenance, set.truncation},
+                        set.grids.size());
+  for (std::size_t i = 0; i < set.grids.size(); ++i) writer.Add(set.names[i], set.grids[i]);
+  writer.Commit();
+}
+
+struct ShapeSetReader::Impl {
+  explicit Impl(const std::filesystem::path& path) : file(path) {}
+  Reader file;
+  ShapeSetInfo info = file.Info();
+  Eigen::Vector3d origin = file.Origin();
+};
+
+ShapeSetReader::ShapeSetReader(const std::filesystem::path& path)
+    : impl_(std::make_unique<Impl>(path)) {}
+ShapeSetReader::~ShapeSetReader() = default;
+
+const ShapeSetInfo& ShapeSetReader::info() const { return impl_->info; }
+std::vector<std::string> ShapeSetReader::Names() const {
+  return impl_->file.Names(impl_->info.count);
+}
+SdfGrid ShapeSetReader::Grid(int i) const {
+  return impl_->file.Grid(i, impl_->info, impl_->origin);
 }
 
 ShapeSet ReadShapeSet(const std::filesystem::path& path) {
-  const Reader reader(path);
-  const ShapeSetInfo info = reader.Info();
-  ShapeSet set;
-  set.kind = info.kind;
-  set.seed = info.seed;
-  set.provenance = info.provenance;
-  set.truncation = info.truncation;
-  set.names = reader.Names(info.count);
-  set.grids = reader.Grids(info, reader.Origin());
+  const ShapeSetReader reader(path);
+  const ShapeSetInfo& info = reader.info();
+  ShapeSet set{info.kind, info.seed, info.provenance, info.truncation, reader.Names(), {}};
+  for (int i = 0; i < info.count; ++i) set.grids.push_back(reader.Grid(i));
   return set;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,19 +13,31 @@ namespace antigrasp {
 struct ShapeSet {
   std::string kind;  // "cylinders", "prisms", "bottles", "import", "samples", "elites"
   std::uint64_t seed = 0;
-  std::string provenance;          // one line: command, checkpoint, version
-  double truncation = 0.0;         // 0: exact distances; tau: values clamped to [-tau, tau]
-  std::vector<std::string> names;  // one per grid ("cylinders-000017", "mug.stl")
-  std::vector<SdfGrid> grids;      // all of one n, spacing, origin
+  std::string provenance = {};          // one line: command, checkpoint, version
+  double truncation = 0.0;              // 0: exact distances; tau: values clamped to [-tau, tau]
+  std::vector<std::string> names = {};  // one per grid ("cylinders-000017", "mug.stl")
+  std::vector<SdfGrid> grids = {};      // all of one n, spacing, origin
 };
 
 // HDF5 layout in docs/formats.md: dataset /sdf float32 [N, n, n, n] (z, y, x; chunked, shuffled,
 // deflated), /names, attributes format = "antigrasp.sdf", version, kind, seed, spacing, origin,
-// sign = "positive inside", unit, truncation, provenance. Written atomically.
-void WriteShapeSet(const std::filesystem::path& path, const ShapeSet& set);
+// sign = "positive inside", unit, truncation, provenance. Written grid by grid, so that memory does
+// not grow with the set; there when Commit() returns, else nothing is.
+class ShapeSetWriter {
+ public:
+  // `about`: everything but its names and grids, of which `count` will follow. InputError for a
+  // path that cannot be written.
+  ShapeSetWriter(const std::filesystem::path& path, ShapeSet about, std::size_t count);
+  ~ShapeSetWriter();
+  // Throws RuntimeFailure when the disk is full. One thread at a time.
+  void Add(std::string name, const SdfGrid& grid);
+  void Commit();
 
-// InputError naming the path for a missing, foreign, truncated or inconsistent file.
-ShapeSet ReadShapeSet(const std::filesystem::path& path);
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+void WriteShapeSet(const std::filesystem::path& path, const ShapeSet& set);
 
 struct ShapeSetInfo {
   std::string kind, provenance;
@@ -32,6 +45,24 @@ struct ShapeSetInfo {
   int count = 0, n = 0, version = 0;
   double spacing = 0.0, truncation = 0.0;
 };
+
+// An SDF file whose grids are read when they are asked for, by any thread. Everything throws
+// InputError naming the path: for a missing, foreign, truncated or inconsistent file the
+// constructor, for a damaged grid Grid().
+class ShapeSetReader {
+ public:
+  explicit ShapeSetReader(const std::filesystem::path& path);
+  ~ShapeSetReader();
+  const ShapeSetInfo& info() const;
+  std::vector<std::string> Names() const;  // one per grid
+  SdfGrid Grid(int i) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+ShapeSet ReadShapeSet(const std::filesystem::path& path);
+
 ShapeSetInfo ReadShapeSetInfo(const std::filesystem::path& path);  // attributes only, no grids
 std::vector<std::string> ReadShapeNames(const std::filesystem::path& path);  // names, no grids
 bool IsShapeSet(const std::filesystem::path& path);  // by content, never throws
