@@ -114,7 +114,7 @@ void EditableMesh::Refresh(const std::vector<std::int32_t>& faces) {
   }
 }
 
-MoveVerdict EditableMesh::TryMove(std::span<const VertexMove> moves, bool check_intersections) {
+MoveVerdict EditableMesh::TryMove(std::span<const VertexMove> moves) {
   const std::vector<std::int32_t> faces = FacesAround(moves);
   const std::size_t kept = taken_back_to_.size();
   const auto put_back = [&] {
@@ -137,7 +137,7 @@ MoveVerdict EditableMesh::TryMove(std::span<const VertexMove> moves, bool check_
     return verdict;
   }
   Refresh(faces);
-  if (check_intersections && limits_.check_intersections && Intersect(faces)) {
+  if (limits_.check_intersections && Intersect(faces)) {
     put_back();
     Refresh(faces);
     return MoveVerdict::kIntersects;
@@ -150,8 +150,6 @@ MoveVerdict EditableMesh::TryMove(std::int32_t vertex, const Vector3d& to) {
   const VertexMove move{vertex, to};
   return TryMove(std::span(&move, 1));
 }
-
-bool EditableMesh::ChangedFacesIntersect() const { return Intersect(changed_); }
 
 void EditableMesh::Commit() {
   taken_back_to_.clear();

@@ -47,13 +47,11 @@ class EditableMesh {
   const Eigen::Vector3d& StartNormal(std::int32_t face) const { return start_normals_[face]; }
 
   // Moves the vertices (each named once) together if the limits allow it; otherwise nothing
-  // changes. check_intersections = false leaves that test to ChangedFacesIntersect(), for searches
-  // that try much and keep little.
-  MoveVerdict TryMove(std::span<const VertexMove> moves, bool check_intersections = true);
+  // changes.
+  MoveVerdict TryMove(std::span<const VertexMove> moves);
   MoveVerdict TryMove(std::int32_t vertex, const Eigen::Vector3d& to);
 
   // What moved since the last Commit or Undo.
-  bool ChangedFacesIntersect() const;
   const std::vector<std::int32_t>& ChangedFaces() const { return changed_; }  // in order
 
   void Commit();  // keeps them

@@ -94,7 +94,7 @@ void SampleAndScore(const TriangleMesh& mesh, const MakeGraspModel& make,
   }
 }
 
-void Summarise(const MetricOptions& options, Graspability* result) {
+void SummarizeGrasps(const MetricOptions& options, Graspability* result) {
   std::vector<double> qualities;
   double sum = 0.0;
   int nonzero = 0;
@@ -134,7 +134,7 @@ Graspability Evaluate(const TriangleMesh& mesh, const MakeGraspModel& make,
   result.status = static_cast<int>(result.grasps.size()) < options.num_grasps
                       ? GraspabilityStatus::kFewGrasps
                       : GraspabilityStatus::kOk;
-  Summarise(options, &result);
+  SummarizeGrasps(options, &result);
   return result;
 }
 

@@ -127,7 +127,7 @@ std::unique_ptr<const Bench> MakeBench(const TriangleMesh& mesh, const MetricOpt
   return bench->poses() > 0 ? std::move(bench) : nullptr;
 }
 
-TrialResult Summarise(const Bench* bench, const Series* first, const TrialOptions& options) {
+TrialResult SummarizeSeries(const Bench* bench, const Series* first, const TrialOptions& options) {
   TrialResult result;
   result.grasps = options.series * options.grasps_per_series;
   if (bench == nullptr) {
@@ -220,9 +220,9 @@ std::vector<TrialResult> RunTrials(const std::vector<TriangleMesh>& meshes,
       progress);
   std::vector<TrialResult> results;
   for (std::size_t object = 0; object < meshes.size(); ++object) {
-    results.push_back(Summarise(benches[object].get(),
-                                &series[object * static_cast<std::size_t>(options.series)],
-                                options));
+    results.push_back(SummarizeSeries(benches[object].get(),
+                                      &series[object * static_cast<std::size_t>(options.series)],
+                                      options));
   }
   return results;
 }

@@ -37,7 +37,5 @@ void Paste(const Image& tile, int x, int y, Image* image);
 
 // Whole or not at all; the same bytes for the same image. At least one pixel (CHECKed).
 void WritePng(const std::filesystem::path& path, const Image& image);
-// InputError unless the file is a PNG image. Grey and transparent ones become RGB on white.
-Image ReadPng(const std::filesystem::path& path);
 
 }  // namespace antigrasp

@@ -179,12 +179,4 @@ std::string Canvas::Shortened(const std::string& text, double width, const TextS
   return kept + kEllipsis;
 }
 
-void Canvas::Clipped(const Area& area, const std::function<void()>& draw) {
-  cairo_save(context_);
-  cairo_rectangle(context_, area.x, area.y, area.width, area.height);
-  cairo_clip(context_);
-  draw();
-  cairo_restore(context_);
-}
-
 }  // namespace antigrasp

@@ -55,9 +55,6 @@ class Canvas {
   // The text cut to this width with an ellipsis where it is longer.
   std::string Shortened(const std::string& text, double width, const TextStyle& style = {});
 
-  // What `draw` draws outside the area is left out.
-  void Clipped(const Area& area, const std::function<void()>& draw);
-
  private:
   void Select(const TextStyle& style);
   void Trace(const std::vector<Place>& points);

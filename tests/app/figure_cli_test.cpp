@@ -10,6 +10,7 @@
 #include "antigrasp/render/image.h"
 #include "tests/app/run_binary.h"
 #include "tests/app/svg_text.h"
+#include "tests/support/read_png.h"
 #include "tests/support/shapes.h"
 #include "tests/support/well_formed.h"
 

@@ -6,6 +6,7 @@
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/render/image.h"
 #include "tests/app/run_binary.h"
+#include "tests/support/read_png.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
 

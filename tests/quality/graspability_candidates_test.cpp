@@ -130,7 +130,7 @@ TEST(Graspability, CountsEachCandidateUnderItsOwnReason) {
   }
 }
 
-TEST(Graspability, SummarisesAtTheOptionsPercentileAndTellsZerosApart) {
+TEST(Graspability, SummarizesAtTheOptionsPercentileAndTellsZerosApart) {
   MetricOptions options;
   options.object_translation_std = 0.004;
   options.num_draws = 1;  // one try each: many are 0

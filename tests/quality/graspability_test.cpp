@@ -41,7 +41,7 @@ void ExpectSame(const Graspability& a, const Graspability& b) {
   }
 }
 
-TEST(Graspability, SummarisesTheGraspsBehindIt) {
+TEST(Graspability, SummarizesTheGraspsBehindIt) {
   const Graspability g = EvaluateGraspability(shapes::Sphere(1.0, 3), {}, 1, 0);
   EXPECT_EQ(g.status, GraspabilityStatus::kOk);
   ASSERT_EQ(g.grasps.size(), 100u);

@@ -6,6 +6,7 @@
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
+#include "tests/support/read_png.h"
 #include "tests/support/temp_folder.h"
 
 namespace antigrasp {

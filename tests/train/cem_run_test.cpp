@@ -15,6 +15,7 @@
 #include "antigrasp/render/image.h"
 #include "antigrasp/train/episode_loop.h"
 #include "antigrasp/train/scalar_log.h"
+#include "tests/support/read_png.h"
 #include "tests/support/temp_folder.h"
 #include "tests/train/run_files.h"
 #include "tests/train/tiny_run.h"

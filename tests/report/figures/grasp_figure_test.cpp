@@ -6,6 +6,7 @@
 
 #include "antigrasp/core/atomic_file.h"
 #include "tests/report/figures/pixels.h"
+#include "tests/support/read_png.h"
 #include "tests/support/shapes.h"
 #include "tests/support/well_formed.h"
 

@@ -7,6 +7,7 @@
 
 #include "antigrasp/render/image.h"
 #include "antigrasp/report/figures/canvas.h"
+#include "tests/support/read_png.h"
 #include "tests/support/temp_folder.h"
 
 // Pages read back as pixels.

@@ -6,6 +6,7 @@
 #include "antigrasp/sdf/mesh_to_sdf.h"
 #include "antigrasp/sdf/remesh.h"
 #include "tests/report/figures/pixels.h"
+#include "tests/support/read_png.h"
 #include "tests/support/shapes.h"
 #include "tests/support/well_formed.h"
 
