@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/datasets/hdf5_chunk.h"
 #include "antigrasp/datasets/hdf5_handle.h"
 #include "antigrasp/datasets/hdf5_output.h"
 
@@ -72,9 +73,13 @@ struct Hdf5File::Impl {
   Handle values{-1, H5Dclose};
   std::vector<hsize_t> next, chunk;  // where the next item goes, and its extents
 
-  Handle Attribute(const std::string& name) const {
-    const bool there = H5Aexists(file.get(), name.c_str()) > 0;
-    return {there ? H5Aopen(file.get(), name.c_str(), H5P_DEFAULT) : -1, H5Aclose};
+  Handle Attribute(const std::string& name, const std::string& object = "/") const {
+    const bool there = H5Lexists(file.get(), object.c_str(), H5P_DEFAULT) > 0 &&
+                       H5Aexists_by_name(file.get(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+    return {
+        there ? H5Aopen_by_name(file.get(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT)
+              : -1,
+        H5Aclose};
   }
   Handle Dataset(const std::string& name) const {
     const bool there = H5Lexists(file.get(), name.c_str(), H5P_DEFAULT) > 0;
@@ -104,10 +109,11 @@ struct Hdf5File::Impl {
     return values;
   }
 
-  void Write(const std::string& name, const Handle& space, hid_t type, const void* data) const {
-    const Handle attribute(
-        H5Acreate2(file.get(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT),
-        H5Aclose);
+  void Write(const std::string& object, const std::string& name, const Handle& space, hid_t type,
+             const void* data) const {
+    const Handle attribute(H5Acreate_by_name(file.get(), object.c_str(), name.c_str(), type,
+                                             space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose);
     Require(attribute && H5Awrite(attribute.get(), type, data) >= 0);
   }
 
@@ -141,9 +147,10 @@ std::unique_ptr<Hdf5File> Hdf5File::Create(const std::filesystem::path& path) {
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.get(), false);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // The file format of HDF5 1.10 (2016) has check sums on its metadata. In the default one a
-  // damaged byte can lead the library out of its buffers.
-  H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110);
+  // The file format of HDF5 1.8 (2008) has check sums on its metadata: in the default one a damaged
+  // byte can lead the library out of its buffers. In later ones chunks have an index that readers
+  // besides the library do not know.
+  H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18);
   impl->output.emplace(path);
   impl->output->Catch(access.get());
   impl->file =
@@ -152,9 +159,10 @@ std::unique_ptr<Hdf5File> Hdf5File::Create(const std::filesystem::path& path) {
   return std::unique_ptr<Hdf5File>(new Hdf5File(std::move(impl)));
 }
 
-std::optional<std::string> Hdf5File::StringAttribute(const std::string& name) const {
+std::optional<std::string> Hdf5File::StringAttribute(const std::string& name,
+                                                     const std::string& object) const {
   const Lock lock(g_library);
-  const Handle attribute = impl_->Attribute(name);
+  const Handle attribute = impl_->Attribute(name, object);
   if (!attribute) return {};
   const Handle type(H5Aget_type(attribute.get()), H5Tclose);
   const Handle space(H5Aget_space(attribute.get()), H5Sclose);
@@ -217,6 +225,7 @@ bool Hdf5File::ReadFloats(const std::string& name, std::uint64_t item, float* va
   std::vector<hsize_t> start(extents.size(), 0), count(extents.begin(), extents.end());
   start[0] = item;
   count[0] = 1;
+  if (!ItemIsStored(dataset, start, count)) return false;
   const Handle file_space(H5Dget_space(dataset.get()), H5Sclose);
   const Handle memory_space(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr),
                             H5Sclose);
@@ -237,28 +246,29 @@ std::optional<std::vector<std::string>> Hdf5File::ReadStrings(const std::string&
   });
 }
 
-void Hdf5File::WriteAttribute(const std::string& name, const std::string& value) {
+void Hdf5File::WriteAttribute(const std::string& name, const std::string& value,
+                              const std::string& object) {
   const Lock lock(g_library);
   std::string padded = value;
   padded.resize(std::max<std::size_t>(value.size(), 1));  // HDF5 has no strings of length 0
-  impl_->Write(name, {H5Screate(H5S_SCALAR), H5Sclose}, Utf8Type(padded.size()).get(),
+  impl_->Write(object, name, {H5Screate(H5S_SCALAR), H5Sclose}, Utf8Type(padded.size()).get(),
                padded.data());
 }
 
 void Hdf5File::WriteAttribute(const std::string& name, std::uint64_t value) {
   const Lock lock(g_library);
-  impl_->Write(name, {H5Screate(H5S_SCALAR), H5Sclose}, H5T_NATIVE_UINT64, &value);
+  impl_->Write("/", name, {H5Screate(H5S_SCALAR), H5Sclose}, H5T_NATIVE_UINT64, &value);
 }
 
 void Hdf5File::WriteAttribute(const std::string& name, double value) {
   const Lock lock(g_library);
-  impl_->Write(name, {H5Screate(H5S_SCALAR), H5Sclose}, H5T_NATIVE_DOUBLE, &value);
+  impl_->Write("/", name, {H5Screate(H5S_SCALAR), H5Sclose}, H5T_NATIVE_DOUBLE, &value);
 }
 
 void Hdf5File::WriteAttribute(const std::string& name, const std::vector<double>& values) {
   const Lock lock(g_library);
   const hsize_t count = values.size();
-  impl_->Write(name, {H5Screate_simple(1, &count, nullptr), H5Sclose}, H5T_NATIVE_DOUBLE,
+  impl_->Write("/", name, {H5Screate_simple(1, &count, nullptr), H5Sclose}, H5T_NATIVE_DOUBLE,
                values.data());
 }
 

@@ -20,7 +20,9 @@ class Hdf5File {
   static std::unique_ptr<Hdf5File> Create(const std::filesystem::path& path);
   ~Hdf5File();
 
-  std::optional<std::string> StringAttribute(const std::string& name) const;
+  // Attributes are the root group's, those of text also another object's.
+  std::optional<std::string> StringAttribute(const std::string& name,
+                                             const std::string& object = "/") const;
   std::optional<std::uint64_t> UintAttribute(const std::string& name) const;
   std::optional<double> DoubleAttribute(const std::string& name) const;
   std::optional<std::vector<double>> DoublesAttribute(const std::string& name) const;
@@ -36,7 +38,9 @@ class Hdf5File {
   std::optional<std::vector<std::string>> ReadStrings(const std::string& name) const;
 
   // All writing throws RuntimeFailure when the library refuses (out of memory) or the disk is full.
-  void WriteAttribute(const std::string& name, const std::string& value);
+  // Some readers see none of an object's attributes if it has more than eight.
+  void WriteAttribute(const std::string& name, const std::string& value,
+                      const std::string& object = "/");
   void WriteAttribute(const std::string& name, std::uint64_t value);
   void WriteAttribute(const std::string& name, const std::vector<double>& values);
   void WriteAttribute(const std::string& name, double value);

@@ -66,7 +66,8 @@ hid_t Driver() {
     functions.open = Open;
     functions.close = Close;
     functions.query = [](const H5FD_t*, unsigned long* flags) -> herr_t {
-      *flags = 0;  // nothing gathered, no room set aside: the end of what is used is that of the file
+      *flags =
+          0;  // nothing gathered, no room set aside: the end of what is used is that of the file
       return 0;
     };
     functions.get_eoa = [](const H5FD_t* file, H5FD_mem_t) { return Own(file).end_of_space; };

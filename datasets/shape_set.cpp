@@ -10,7 +10,7 @@
 namespace antigrasp {
 namespace {
 
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 constexpr std::uint64_t kMostNodes = 512;  // along one side
 constexpr std::uint64_t kMostGrids = 10'000'000;
 constexpr const char* kFormat = "antigrasp.sdf";
@@ -28,8 +28,8 @@ class Reader {
     if (!format) Fail("no attribute format", kWholeFile);
     if (*format != kFormat) Fail("format = \"" + *format + "\"", kWholeFile);
     const std::uint64_t version = Number("version");
-    if (version != kVersion) {
-      Fail("version = " + std::to_string(version), "version " + std::to_string(kVersion));
+    if (version < 1 || version > kVersion) {
+      Fail("version = " + std::to_string(version), "version 1 to " + std::to_string(kVersion));
     }
   }
 
@@ -47,7 +47,9 @@ class Reader {
     if (!(std::isfinite(info.truncation) && info.truncation >= 0.0)) {
       Fail("truncation is not a length", "attribute truncation >= 0");
     }
-    if (const std::string sign = Text("sign"); sign != "positive inside") {
+    // Version 1 had all attributes on the root group.
+    const std::string sign = Text("sign", info.version == 1 ? "/" : "/sdf");
+    if (sign != "positive inside") {
       Fail("sign = \"" + sign + "\"", "sign = \"positive inside\"");
     }
     const std::vector<std::uint64_t> extents = file_->Extents("/sdf");
@@ -105,9 +107,10 @@ class Reader {
     if (const auto value = file_->DoubleAttribute(name)) return *value;
     Fail("no usable attribute " + name, "attribute " + name + ", a number");
   }
-  std::string Text(const std::string& name) const {
-    if (auto value = file_->StringAttribute(name)) return *std::move(value);
-    Fail("no usable attribute " + name, "attribute " + name + ", a string");
+  std::string Text(const std::string& name, const std::string& object = "/") const {
+    if (auto value = file_->StringAttribute(name, object)) return *std::move(value);
+    const std::string where = object == "/" ? "" : " of " + object;
+    Fail("no usable attribute " + name + where, "attribute " + name + where + ", a string");
   }
 
   std::filesystem::path path_;
@@ -138,11 +141,11 @@ struct ShapeSetWriter::Impl {
     file->WriteAttribute("spacing", grid.spacing);
     file->WriteAttribute("origin",
                          std::vector<double>{grid.origin.x(), grid.origin.y(), grid.origin.z()});
-    file->WriteAttribute("sign", std::string("positive inside"));
-    file->WriteAttribute("unit", std::string("side of the unit cube"));
     file->WriteAttribute("truncation", about.truncation);
     file->WriteAttribute("provenance", about.provenance);
     file->CreateFloats("/sdf", count, {n, n, n});
+    file->WriteAttribute("sign", std::string("positive inside"), "/sdf");
+    file->WriteAttribute("unit", std::string("side of the unit cube"), "/sdf");
   }
 };
 

@@ -20,9 +20,9 @@ struct ShapeSet {
 };
 
 // HDF5 layout in docs/formats.md: dataset /sdf float32 [N, n, n, n] (z, y, x; chunked, shuffled,
-// deflated), /names, attributes format = "antigrasp.sdf", version, kind, seed, spacing, origin,
-// sign = "positive inside", unit, truncation, provenance. Written grid by grid, so that memory does
-// not grow with the set; there when Commit() returns, else nothing is.
+// deflated) with its attributes sign = "positive inside" and unit, /names, attributes format =
+// "antigrasp.sdf", version, kind, seed, spacing, origin, truncation, provenance. Written grid by
+// grid, so that memory does not grow with the set; there when Commit() returns, else nothing is.
 class ShapeSetWriter {
  public:
   // `about`: everything but its names and grids, of which `count` will follow. InputError for a

@@ -56,8 +56,9 @@ class OpenFile {
   hid_t id_;
 };
 
-std::string TextOf(hid_t file, const char* name) {
-  const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT), type = H5Aget_type(attribute);
+std::string TextOf(hid_t file, const char* name, const char* object = "/") {
+  const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t type = H5Aget_type(attribute);
   EXPECT_EQ(H5Tget_class(type), H5T_STRING) << name;
   EXPECT_EQ(H5Tget_cset(type), H5T_CSET_UTF8) << name;
   EXPECT_EQ(H5Tget_strpad(type), H5T_STR_NULLPAD) << name;  // no room for a zero at the end
@@ -90,21 +91,31 @@ std::uint64_t WholeOf(hid_t file, const char* name) {
   return value;
 }
 
+hsize_t AttributesOf(hid_t file, const char* object) {
+  H5O_info_t info{};
+  EXPECT_GE(H5Oget_info_by_name(file, object, &info, H5P_DEFAULT), 0);
+  return info.num_attrs;
+}
+
 TEST(ShapeFile, HoldsEveryAttributeUnderItsName) {
   const TempFolder folder;
   WriteShapeSet(folder / "a.h5", Marked());
-  EXPECT_EQ(ReadFile(folder / "a.h5").substr(0, 9), "\x89HDF\r\n\x1A\n\x03");
+  // The layout of HDF5 1.8: its superblock is version 2.
+  EXPECT_EQ(ReadFile(folder / "a.h5").substr(0, 9), "\x89HDF\r\n\x1A\n\x02");
   const OpenFile file(folder / "a.h5");
   EXPECT_EQ(TextOf(file.get(), "format"), "antigrasp.sdf");
-  EXPECT_EQ(WholeOf(file.get(), "version"), 1U);
+  EXPECT_EQ(WholeOf(file.get(), "version"), 2U);
   EXPECT_EQ(TextOf(file.get(), "kind"), "prisms");
   EXPECT_EQ(WholeOf(file.get(), "seed"), 0x0102030405060708U);
   EXPECT_EQ(DoublesOf(file.get(), "spacing"), std::vector<double>{0.25});
   EXPECT_EQ(DoublesOf(file.get(), "origin"), (std::vector<double>{1, 2, 3}));  // x, y, z
-  EXPECT_EQ(TextOf(file.get(), "sign"), "positive inside");
-  EXPECT_EQ(TextOf(file.get(), "unit"), "side of the unit cube");
   EXPECT_EQ(DoublesOf(file.get(), "truncation"), std::vector<double>{0.125});
   EXPECT_EQ(TextOf(file.get(), "provenance"), "by hand");
+  EXPECT_EQ(TextOf(file.get(), "sign", "/sdf"), "positive inside");
+  EXPECT_EQ(TextOf(file.get(), "unit", "/sdf"), "side of the unit cube");
+  // Of a ninth attribute HDF5 would make an index that other readers do not know.
+  EXPECT_EQ(AttributesOf(file.get(), "/"), 8U);
+  EXPECT_EQ(AttributesOf(file.get(), "/sdf"), 2U);
 }
 
 TEST(ShapeFile, HoldsTheGridsWithXFastestOneChunkEach) {
@@ -179,6 +190,8 @@ TEST(ShapeFile, HoldsNoTimes) {
 struct Foreign {
   std::string format = "antigrasp.sdf", kind = "bottles", sign = "positive inside",
               provenance = "another program";
+  std::int32_t version = 1;
+  const char* sign_of = "/";
   std::vector<double> spacing = {0.25}, origin = {1, 2, 3}, truncation = {0.5};
   std::vector<hsize_t> extents = {2, 2, 2, 2};
   std::vector<const char*> names = {"first", "second"};
@@ -214,9 +227,8 @@ struct Foreign {
     const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     Text(file, "format", format);
     Text(file, "kind", kind);
-    Text(file, "sign", sign);
     Text(file, "provenance", provenance);
-    const std::int32_t version = 1, seed = 77;
+    const std::int32_t seed = 77;
     Attribute(file, "version", H5T_STD_I16BE, H5T_NATIVE_INT32, &version, 1);
     Attribute(file, "seed", H5T_STD_U32LE, H5T_NATIVE_INT32, &seed, 1);
     Reals(file, "spacing", spacing);
@@ -226,6 +238,9 @@ struct Foreign {
     for (int i = 0; i < 16; ++i) values.push_back(Mark(i / 8, i % 2, i / 2 % 2, i / 4 % 2));
     const bool small = extents == std::vector<hsize_t>{2, 2, 2, 2};
     Dataset(file, "/sdf", type, H5T_NATIVE_FLOAT, small ? values.data() : nullptr, extents);
+    const hid_t signed_object = H5Oopen(file, sign_of, H5P_DEFAULT);
+    Text(signed_object, "sign", sign);
+    H5Oclose(signed_object);
     const hid_t text = H5Tcopy(H5T_C_S1);
     H5Tset_size(text, H5T_VARIABLE);
     Dataset(file, "/names", text, text, names.data(), {names.size()});
@@ -286,6 +301,8 @@ TEST(ShapeFile, IsRefusedForEachWrongAttributeByItsName) {
   const double infinity = std::numeric_limits<double>::infinity();
   ExpectRefused(Foreign{.format = "other.sdf"}, "format = \"other.sdf\"");
   ExpectRefused(Foreign{.sign = "negative inside"}, "sign = \"negative inside\"");
+  ExpectRefused(Foreign{.sign = "negative inside", .version = 2, .sign_of = "/sdf"},
+                "sign = \"negative inside\"");
   for (const double value : {0.0, -0.25, nan, infinity}) {
     ExpectRefused(Foreign{.spacing = {value}}, "spacing is not a length");
   }
@@ -296,6 +313,18 @@ TEST(ShapeFile, IsRefusedForEachWrongAttributeByItsName) {
   ExpectRefused(Foreign{.origin = {1, 2}}, "no usable attribute origin");
   ExpectRefused(Foreign{.origin = {1, 2, 3, 4}}, "no usable attribute origin");
   ExpectRefused(Foreign{.origin = {1, 2, nan}}, "no usable attribute origin");
+}
+
+// On the root group in version 1, on what they are of in version 2.
+TEST(ShapeFile, HasTheSignWhereItsVersionSays) {
+  const TempFolder folder;
+  const ShapeSetInfo info =
+      ReadShapeSetInfo(Foreign{.version = 2, .sign_of = "/sdf"}.WriteTo(folder / "foreign.h5"));
+  EXPECT_EQ(info.version, 2);
+  ExpectRefused(Foreign{.version = 2, .sign_of = "/"}, "no usable attribute sign of /sdf");
+  ExpectRefused(Foreign{.version = 1, .sign_of = "/sdf"}, "no usable attribute sign (");
+  ExpectRefused(Foreign{.version = 0}, "version = 0");
+  ExpectRefused(Foreign{.version = 3}, "version = 3");
 }
 
 TEST(ShapeFile, IsRefusedForEachWrongDatasetByItsName) {

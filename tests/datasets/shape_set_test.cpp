@@ -125,7 +125,7 @@ TEST(ShapeSet, InfoTellsTheAttributesWithoutTheGrids) {
   EXPECT_EQ(info.seed, set.seed);
   EXPECT_EQ(info.count, 3);
   EXPECT_EQ(info.n, 5);
-  EXPECT_EQ(info.version, 1);
+  EXPECT_EQ(info.version, 2);
   EXPECT_EQ(info.spacing, 0.2);
   EXPECT_EQ(info.truncation, 0.125);
   EXPECT_EQ(ReadShapeNames(folder / "a.h5"), set.names);
@@ -199,9 +199,9 @@ TEST(ShapeSet, Hdf5FileOfAnotherProgramIsRefused) {
 
 TEST(ShapeSet, NewerVersionIsRefusedByNumber) {
   const TempFolder folder;
-  const auto path = Damaged(folder, [](hid_t file) { WriteUint(file, "version", 2); });
-  EXPECT_NE(ReadError(path).find("version = 2"), std::string::npos);
-  EXPECT_NE(ReadError(path).find("expected version 1"), std::string::npos);
+  const auto path = Damaged(folder, [](hid_t file) { WriteUint(file, "version", 3); });
+  EXPECT_NE(ReadError(path).find("version = 3"), std::string::npos);
+  EXPECT_NE(ReadError(path).find("expected version 1 to 2"), std::string::npos);
 }
 
 TEST(ShapeSet, MissingPartsAreNamed) {
@@ -210,11 +210,13 @@ TEST(ShapeSet, MissingPartsAreNamed) {
     const auto path = Damaged(folder, [&](hid_t file) { H5Ldelete(file, name, H5P_DEFAULT); });
     EXPECT_NE(ReadError(path).find(name), std::string::npos);
   }
-  for (const char* name :
-       {"kind", "seed", "spacing", "origin", "sign", "truncation", "provenance"}) {
+  for (const char* name : {"kind", "seed", "spacing", "origin", "truncation", "provenance"}) {
     const auto path = Damaged(folder, [&](hid_t file) { H5Adelete(file, name); });
     EXPECT_NE(ReadError(path).find(name), std::string::npos);
   }
+  const auto path =
+      Damaged(folder, [&](hid_t file) { H5Adelete_by_name(file, "/sdf", "sign", H5P_DEFAULT); });
+  EXPECT_NE(ReadError(path).find("sign of /sdf"), std::string::npos);
 }
 
 TEST(ShapeSet, WrongShapesAreRefusedBeforeAnythingIsAllocated) {
