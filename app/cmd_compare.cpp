@@ -36,15 +36,17 @@ LoadedSet Load(const std::string& input, const std::string& what, int threads) {
   ConsoleObserver console;
   std::vector<InputObject> objects =
       LoadObjects({input}, threads, console.Phase("reading the " + what));
-  std::fprintf(stderr, "%s: %s\n", what.c_str(), CountByStatus(objects).c_str());
   LoadedSet set;
+  std::vector<std::string> statuses;
   for (InputObject& object : objects) {
+    statuses.push_back(object.status);
     if (object.ok() && SurfaceArea(object.mesh) > 0.0) {
       set.meshes.push_back(std::move(object.mesh));
     } else {
       ++set.left_out;
     }
   }
+  std::fprintf(stderr, "%s: %s\n", what.c_str(), CountByStatus(statuses).c_str());
   return set;
 }
 

@@ -26,12 +26,10 @@ struct ImportFlags {
 };
 
 void Make(const MakeFlags& flags) {
-  const AtomicFile probe(flags.out);  // refuses an unwritable target before the work
   ConsoleObserver console;
-  const ShapeSet set = MakePriorSet(flags.options, console.Phase("making " + flags.options.kind));
-  WriteShapeSet(flags.out, set);
-  std::printf("%s: %zu %s, %d^3, seed %llu\n", flags.out.c_str(), set.grids.size(),
-              set.kind.c_str(), flags.options.resolution,
+  WritePriorSet(flags.out, flags.options, console.Phase("making " + flags.options.kind));
+  std::printf("%s: %d %s, %d^3, seed %llu\n", flags.out.c_str(), flags.options.count,
+              flags.options.kind.c_str(), flags.options.resolution,
               static_cast<unsigned long long>(flags.options.seed));
 }
 

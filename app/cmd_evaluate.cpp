@@ -3,12 +3,16 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
 #include "antigrasp/app/scored_objects.h"
 #include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/ordered_stream.h"
+#include "antigrasp/core/statistics.h"
+#include "antigrasp/quality/grasp_table.h"
 
 namespace antigrasp {
 namespace {
@@ -22,10 +26,16 @@ struct EvaluateFlags {
   int threads = 0;
 };
 
-std::vector<double> Values(const std::vector<ScoredObject>& scored) {
-  std::vector<double> values;
-  for (const ScoredObject& item : scored) values.push_back(item.Value());
-  return values;
+// What is kept of the objects when they have been scored.
+struct Scores {
+  std::vector<ScoreRow> rows;
+  std::vector<double> values, originals;  // graspabilities, NaN where there is none
+  std::vector<std::string> notes;
+  CandidateCount candidates;
+};
+
+std::string MetricPath(const EvaluateFlags& flags) {
+  return flags.out.empty() ? "" : flags.out + ".metric.toml";
 }
 
 void WriteScores(const EvaluateFlags& flags, const MetricOptions& metric, const std::string& csv) {
@@ -34,7 +44,7 @@ void WriteScores(const EvaluateFlags& flags, const MetricOptions& metric, const 
     return;
   }
   WriteFileAtomic(flags.out, csv);
-  WriteFileAtomic(flags.out + ".metric.toml", MetricToml(metric, flags.seed));
+  WriteFileAtomic(MetricPath(flags), MetricToml(metric, flags.seed));
 }
 
 // " +-0.00012 (95 %)"; nothing for a single object, which says nothing about the spread.
@@ -44,18 +54,17 @@ std::string HalfWidth(const char* format, double half_width) {
   return text;
 }
 
-void PrintSummary(const std::vector<ScoredObject>& scored) {
-  const MeanInterval mean = MeanWithInterval(Values(scored));
+void PrintSummary(const Scores& scores) {
+  const MeanInterval mean = MeanWithInterval(scores.values);
   std::fprintf(stderr, "%d objects scored, %d not: mean graspability %.5f%s\n", mean.count,
-               static_cast<int>(scored.size()) - mean.count, mean.mean,
+               static_cast<int>(scores.rows.size()) - mean.count, mean.mean,
                HalfWidth(" +-%.5f (95 %%)", mean.half_width).c_str());
-  std::fprintf(stderr, "%s\n", AcceptanceLine(scored).c_str());
+  std::fprintf(stderr, "%s\n", scores.candidates.Text().c_str());
 }
 
 // Of the pairs that both have a score.
-void PrintPairedDifference(const std::vector<ScoredObject>& scored,
-                           const std::vector<ScoredObject>& baselines) {
-  const std::vector<double> changed = Values(scored), original = Values(baselines);
+void PrintPairedDifference(const Scores& scores) {
+  const std::vector<double>&changed = scores.values, &original = scores.originals;
   std::vector<double> difference, of_pairs;
   for (std::size_t i = 0; i < changed.size(); ++i) {
     difference.push_back(changed[i] - original[i]);
@@ -69,32 +78,61 @@ void PrintPairedDifference(const std::vector<ScoredObject>& scored,
       HalfWidth(" +-%.1f", 100.0 * mean.half_width / baseline).c_str(), baseline, mean.count);
 }
 
+// Object by object, each with its original's graspability where there are originals.
+Scores ScoreAllOf(const ObjectSource& objects, const EvaluateFlags& flags,
+                  const MetricFlags& metric_flags) {
+  const MetricOptions metric = metric_flags.Resolve();
+  const bool egad = metric_flags.preset() == "egad";
+  std::optional<ObjectSource> originals;
+  std::vector<std::int64_t> original_of;
+  if (!flags.baseline.empty()) {
+    originals.emplace(flags.baseline);
+    original_of = PairWithOriginals(objects, *originals);
+  }
+  std::optional<AtomicFile> grasps_file;
+  if (!flags.grasps.empty()) grasps_file.emplace(flags.grasps);
+  GraspTable grasps;
+  Scores scores;
+  ConsoleObserver console;
+  StreamInOrder(
+      objects.size(), flags.threads,
+      [&](std::int64_t i) {
+        std::optional<double> original;
+        if (originals) {
+          const std::int64_t place = original_of[static_cast<std::size_t>(i)];
+          original = ScoreObject(originals->Load(place), i, metric, flags.seed).Value();
+        }
+        return std::pair(ScoreObject(objects.Load(i), i, metric, flags.seed), original);
+      },
+      [&](std::int64_t, const std::pair<ScoredObject, std::optional<double>>& item) {
+        const auto& [scored, original] = item;
+        scores.rows.push_back(RowOf(scored, egad, original ? &*original : nullptr));
+        scores.values.push_back(scored.Value());
+        if (original) scores.originals.push_back(*original);
+        if (!scored.note.empty()) scores.notes.push_back(scored.name + ": " + scored.note);
+        scores.candidates.Add(scored.score);
+        if (!grasps_file) return;
+        grasps.Add(scored.name, scored.score, scored.center_of_mass);
+        grasps_file->Append(grasps.TakeText());
+      },
+      console.Phase("scoring"));
+  if (grasps_file) grasps_file->Commit();
+  return scores;
+}
+
 void Evaluate(const EvaluateFlags& flags, const MetricFlags& metric_flags) {
   const MetricOptions metric = metric_flags.Resolve();
   for (const std::string& out : {flags.out, flags.grasps}) {
     if (!out.empty()) const AtomicFile probe(out);  // refuses an unwritable target before the work
   }
-  ConsoleObserver console;
-  std::vector<InputObject> objects =
-      LoadObjects(flags.inputs, flags.threads, console.Phase("reading"));
-  std::vector<InputObject> originals;
-  if (!flags.baseline.empty()) originals = LoadBaselines(flags.baseline, objects, flags.threads);
-  const std::vector<ScoredObject> scored =
-      ScoreObjects(std::move(objects), metric, flags.seed, flags.threads, "scoring");
-  std::vector<ScoredObject> baselines;
-  if (!flags.baseline.empty()) {
-    baselines = ScoreObjects(std::move(originals), metric, flags.seed, flags.threads,
-                             "scoring the baseline");
-  }
-  for (const ScoredObject& item : scored) {
-    if (!item.object.note.empty()) spdlog::warn("{}: {}", item.object.name, item.object.note);
-  }
-  if (!flags.grasps.empty()) WriteFileAtomic(flags.grasps, GraspsCsv(scored));
-  const bool egad = metric_flags.preset() == "egad";
-  const auto rows = ScoreRows(scored, egad, flags.baseline.empty() ? nullptr : &baselines);
-  WriteScores(flags, metric, ScoresCsv(rows));
-  PrintSummary(scored);
-  if (!flags.baseline.empty()) PrintPairedDifference(scored, baselines);
+  RequireApart({flags.out, MetricPath(flags), flags.grasps});
+  const ObjectSource objects(flags.inputs);
+  objects.RequireNotRead({flags.out, MetricPath(flags), flags.grasps});
+  const Scores scores = ScoreAllOf(objects, flags, metric_flags);
+  for (const std::string& note : scores.notes) spdlog::warn("{}", note);
+  WriteScores(flags, metric, ScoresCsv(scores.rows));
+  PrintSummary(scores);
+  if (!flags.baseline.empty()) PrintPairedDifference(scores);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include "antigrasp/app/flags.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/ordered_stream.h"
+#include "antigrasp/core/staged_folder.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/export/print_table.h"
 #include "antigrasp/mesh/mesh_file.h"
@@ -24,51 +26,68 @@ struct ExportFlags {
   int threads = 0;
 };
 
-// The usable objects that are printable solids, checked for printing; the others are warned about.
-// InputError when there is none.
-std::vector<PrintedObject> CheckSolids(std::vector<InputObject> objects, const ExportFlags& flags,
-                                       const PrintOptions& options, const ProgressFn& progress) {
-  std::vector<PrintedObject> checked(objects.size());
-  ParallelFor(
-      std::ssize(objects), flags.threads,
-      [&](std::int64_t i) {
-        PrintedObject& item = checked[static_cast<std::size_t>(i)];
-        item.object = std::move(objects[static_cast<std::size_t>(i)]);
-        if (!item.object.ok()) return;
-        item.check = CheckPrint(item.object.mesh, flags.size_mm, options);
-        if (!item.check.why_not_solid.empty()) item.object.status = item.check.why_not_solid;
-      },
-      progress);
-  std::vector<std::string> refusals;
-  for (const PrintedObject& item : checked) {
-    if (!item.object.ok()) refusals.push_back(item.object.name + ": " + item.object.status);
+std::string FileOf(const std::string& name, const ExportFlags& flags) {
+  return FileNameOf(name) + "." + flags.format;
+}
+
+// A usable object that is a printable solid, placed as it will be written; else why it is none.
+struct Placed {
+  PrintedObject printed;
+  std::string refusal;
+  TriangleMesh mesh;
+};
+
+Placed PlaceForPrint(InputObject object, const ExportFlags& flags, const PrintOptions& options) {
+  Placed placed{{object.name, {}}, "", {}};
+  if (!object.ok()) {
+    placed.refusal = object.status;
+    return placed;
   }
-  if (refusals.size() == checked.size()) {
-    throw InputError(refusals.front(), flags.inputs.front(), "a closed solid");
+  PrintCheck& check = placed.printed.check;
+  check = CheckPrint(object.mesh, flags.size_mm, options);
+  placed.refusal = check.why_not_solid;
+  if (!placed.refusal.empty()) return placed;
+  const Eigen::Matrix3d pose =
+      flags.pose == "print" ? check.table_from_object : Eigen::Matrix3d::Identity();
+  placed.mesh = PlacedForPrint(object.mesh, check, pose);
+  return placed;
+}
+
+// Nothing is written that was there before the call as an object.
+void RequireOtherFiles(const ObjectSource& objects, const ExportFlags& flags) {
+  std::vector<std::filesystem::path> written;
+  for (std::int64_t i = 0; i < objects.size(); ++i) {
+    written.push_back(std::filesystem::path(flags.out) / FileOf(objects.name(i), flags));
   }
-  for (const std::string& refusal : refusals) spdlog::warn("not exported: {}", refusal);
-  std::erase_if(checked, [](const PrintedObject& item) { return !item.object.ok(); });
-  return checked;
+  objects.RequireNotRead(written);
 }
 
 void Export(const ExportFlags& flags, const PrintOptions& options) {
+  const ObjectSource objects(flags.inputs);
+  RequireOtherFiles(objects, flags);
+  StagedFolder staged(flags.out);
+  std::vector<PrintedObject> solids;
+  std::vector<std::string> refusals;
   ConsoleObserver console;
-  std::vector<InputObject> objects =
-      LoadObjects(flags.inputs, flags.threads, console.Phase("reading"));
-  const std::size_t count = objects.size();
-  const std::vector<PrintedObject> solids =
-      CheckSolids(std::move(objects), flags, options, console.Phase("checking"));
-  MakeFolder(flags.out);
-  const std::filesystem::path out(flags.out);
-  for (const PrintedObject& item : solids) {
-    const Eigen::Matrix3d pose =
-        flags.pose == "print" ? item.check.table_from_object : Eigen::Matrix3d::Identity();
-    WriteMesh(out / (FileNameOf(item.object.name) + "." + flags.format),
-              PlacedForPrint(item.object.mesh, item.check, pose));
-  }
-  WriteFileAtomic(out / "print.csv", PrintCsv(solids));
-  std::printf("%zu of %zu objects in %s, largest extent %g mm\n%s", solids.size(), count,
-              flags.out.c_str(), flags.size_mm, PrintSummary(solids, options).c_str());
+  StreamInOrder(
+      objects.size(), flags.threads,
+      [&](std::int64_t i) { return PlaceForPrint(objects.Load(i), flags, options); },
+      [&](std::int64_t, Placed item) {
+        if (!item.refusal.empty()) {
+          refusals.push_back(item.printed.name + ": " + item.refusal);
+          return;
+        }
+        WriteMesh(staged.path() / FileOf(item.printed.name, flags), item.mesh);
+        solids.push_back(std::move(item.printed));
+      },
+      console.Phase("checking"));
+  if (solids.empty()) throw InputError(refusals.front(), flags.inputs.front(), "a closed solid");
+  for (const std::string& refusal : refusals) spdlog::warn("not exported: {}", refusal);
+  staged.Commit();
+  WriteFileAtomic(std::filesystem::path(flags.out) / "print.csv", PrintCsv(solids));
+  std::printf("%zu of %zu objects in %s, largest extent %g mm\n%s", solids.size(),
+              solids.size() + refusals.size(), flags.out.c_str(), flags.size_mm,
+              PrintSummary(solids, options).c_str());
 }
 
 }  // namespace

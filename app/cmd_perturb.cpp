@@ -82,7 +82,6 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
   ConsoleObserver console;
   CheckPerturbFolder(flags.inputs, flags.out);
   auto inputs = LoadObjects(flags.inputs, flags.threads, console.Phase("reading"));
-  CheckPerturbNames(inputs);
   const auto objects =
       PerturbAll(std::move(inputs), settings, flags.threads, console.Phase("perturbing"));
   const std::filesystem::path out(flags.out);

@@ -40,8 +40,10 @@ void AppendPoses(const std::string& name, const std::vector<StablePose>& poses, 
 void Poses(const PosesFlags& flags) {
   if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
   ConsoleObserver console;
+  const ObjectSource source(flags.inputs);
+  source.RequireNotRead({flags.out});
   const std::vector<InputObject> objects =
-      LoadObjects(flags.inputs, flags.threads, console.Phase("reading"));
+      LoadObjects(source, flags.threads, console.Phase("reading"));
   std::vector<std::vector<StablePose>> poses(objects.size());
   ParallelFor(
       std::ssize(objects), flags.threads,

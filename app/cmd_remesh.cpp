@@ -5,7 +5,8 @@
 #include "antigrasp/app/console.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_writer.h"
-#include "antigrasp/core/error.h"
+#include "antigrasp/core/ordered_stream.h"
+#include "antigrasp/core/staged_folder.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
@@ -22,21 +23,25 @@ struct RemeshFlags {
 
 void RemeshFile(const RemeshFlags& flags) {
   ReadShapeSetInfo(flags.input);  // only SDF files have something to remesh
-  ConsoleObserver console;
-  const std::vector<InputObject> objects =
-      LoadObjects({flags.input}, flags.threads, console.Phase("remeshing"));
-  MakeFolder(flags.out);
-  const std::filesystem::path folder(flags.out);
+  const ObjectSource objects({flags.input});
+  StagedFolder staged(flags.out);
   CsvWriter csv({"object", "status", "vertices", "faces", "volume", "area"});
-  for (const InputObject& object : objects) {
-    csv.Text(object.name).Text(object.status).Count(std::ssize(object.mesh.vertices));
-    csv.Count(std::ssize(object.mesh.faces));
-    csv.Numbers({Volume(object.mesh), SurfaceArea(object.mesh)}).EndRow();
-    if (!object.ok()) continue;
-    WriteMesh(folder / (FileNameOf(object.name) + "." + flags.format), object.mesh);
-  }
-  WriteFileAtomic(folder / "remesh.csv", csv.text());
-  std::printf("%s\nmeshes (unit cube) and remesh.csv in %s\n", CountByStatus(objects).c_str(),
+  std::vector<std::string> statuses;
+  ConsoleObserver console;
+  StreamInOrder(
+      objects.size(), flags.threads, [&](std::int64_t i) { return objects.Load(i); },
+      [&](std::int64_t, const InputObject& object) {
+        csv.Text(object.name).Text(object.status).Count(std::ssize(object.mesh.vertices));
+        csv.Count(std::ssize(object.mesh.faces));
+        csv.Numbers({Volume(object.mesh), SurfaceArea(object.mesh)}).EndRow();
+        statuses.push_back(object.status);
+        if (!object.ok()) return;
+        WriteMesh(staged.path() / (FileNameOf(object.name) + "." + flags.format), object.mesh);
+      },
+      console.Phase("remeshing"));
+  staged.Commit();
+  WriteFileAtomic(std::filesystem::path(flags.out) / "remesh.csv", csv.text());
+  std::printf("%s\nmeshes (unit cube) and remesh.csv in %s\n", CountByStatus(statuses).c_str(),
               flags.out.c_str());
 }
 

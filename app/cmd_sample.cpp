@@ -29,7 +29,7 @@ struct SampleFlags {
 
 void Sample(const SampleFlags& flags) {
   const fs::path path = FindNetworks(flags.checkpoint);
-  const AtomicFile probe(flags.out);  // refuses an unwritable target before the work
+  { const AtomicFile probe(flags.out); }  // refuses an unwritable target before the work
   const Checkpoint checkpoint = ReadCheckpoint(path);
   RunConfig config = NetworksFromToml(checkpoint.config, path.string());
   config.device = flags.device;
@@ -45,6 +45,7 @@ void Sample(const SampleFlags& flags) {
   set.truncation = LargestDistance(config.model);
   set.provenance = "antigrasp sample " + path.string() + ", episode " +
                    std::to_string(trainer.episode()) + ", update " + std::to_string(trainer.step());
+  ShapeSetWriter writer(flags.out, set, static_cast<std::size_t>(flags.count));
   constexpr int kChunk = 64;
   for (int first = 0; first < flags.count; first += kChunk) {
     const torch::Tensor values =
@@ -52,12 +53,11 @@ void Sample(const SampleFlags& flags) {
     for (std::int64_t i = 0; i < values.size(0); ++i) {
       char name[32];
       std::snprintf(name, sizeof name, "sample-%06d", first + static_cast<int>(i));
-      set.names.push_back(name);
-      set.grids.push_back(GridOf(values[i], config.model));
+      writer.Add(name, GridOf(values[i], config.model));
     }
     progress(std::min(first + kChunk, flags.count), flags.count);
   }
-  WriteShapeSet(flags.out, set);
+  writer.Commit();
   std::printf("%s: %d samples, seed %llu, from %s\n", flags.out.c_str(), flags.count,
               static_cast<unsigned long long>(flags.seed), path.c_str());
 }

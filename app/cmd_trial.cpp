@@ -44,8 +44,9 @@ OptionFlags TrialOptionFlags(CLI::App* command) {
 
 std::vector<InputObject> LoadUsable(const TrialFlags& flags) {
   ConsoleObserver console;
-  std::vector<InputObject> objects =
-      LoadObjects(flags.inputs, flags.threads, console.Phase("reading"));
+  const ObjectSource source(flags.inputs);
+  source.RequireNotRead({flags.out});
+  std::vector<InputObject> objects = LoadObjects(source, flags.threads, console.Phase("reading"));
   const std::string first = objects.front().status;
   for (const InputObject& object : objects) {
     if (!object.ok()) spdlog::warn("{}: left out: {}", object.name, object.status);

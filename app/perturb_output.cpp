@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <numeric>
 
 #include "antigrasp/core/atomic_file.h"
@@ -101,17 +100,6 @@ void CheckPerturbFolder(const std::vector<std::string>& inputs, const fs::path& 
   fs::path parent = fs::absolute(out);
   while (!fs::exists(parent)) parent = parent.parent_path();
   const AtomicFile probe(parent / "perturb.csv");  // refuses what is not writable
-}
-
-void CheckPerturbNames(const std::vector<InputObject>& objects) {
-  std::map<std::string, std::string> object_of;
-  for (const InputObject& object : objects) {
-    const auto [at, fresh] = object_of.emplace(FileNameOf(object.name), object.name);
-    if (!fresh) {
-      throw InputError("two objects for " + at->first + ".stl", at->second + ", " + object.name,
-                       "names that differ by more than folder and extension");
-    }
-  }
 }
 
 void WritePerturbedMeshes(const std::vector<PerturbedObject>& objects, const fs::path& out) {

@@ -29,8 +29,6 @@ std::string PerturbSummary(const std::vector<PerturbedObject>& objects);
 // InputError, with nothing written, unless `out` is a folder or can become one and no result would
 // be written over an input.
 void CheckPerturbFolder(const std::vector<std::string>& inputs, const std::filesystem::path& out);
-// InputError unless every object's files have names of their own.
-void CheckPerturbNames(const std::vector<InputObject>& objects);
 
 // out/after/NAME.stl for every printable result, out/before/NAME.stl for every usable input.
 void WritePerturbedMeshes(const std::vector<PerturbedObject>& objects,

@@ -9,31 +9,27 @@
 
 namespace antigrasp {
 
-// An object of the command line with its score; not evaluable when the object is not usable.
+// An object of the command line with its score but without its mesh; not evaluable when the object
+// is not usable.
 struct ScoredObject {
-  InputObject object;
+  std::string name, status, note;
+  Eigen::Vector3d center_of_mass;  // in the unit of the mesh; only of a scored one
   Graspability score;
-  std::string Status() const;
   double Value() const;  // the graspability, NaN when there is none
 };
 
-// The changed objects' originals, in the order of `objects`: alone they pair up as they are, else
-// by name without the extension. InputError for an object without an original or with several.
-std::vector<InputObject> LoadBaselines(const std::vector<std::string>& inputs,
-                                       const std::vector<InputObject>& objects, int threads);
+// Draws from the stream of number `stream`: equal numbers, equal random numbers.
+ScoredObject ScoreObject(const InputObject& object, std::int64_t stream,
+                         const MetricOptions& metric, std::uint64_t seed);
 
-// Object i draws from the stream of number i: equal places, equal random numbers. Shows progress.
-std::vector<ScoredObject> ScoreObjects(std::vector<InputObject> objects,
-                                       const MetricOptions& metric, std::uint64_t seed, int threads,
-                                       const std::string& phase);
+// Which original every object has: alone they pair up as they are, else by name without the
+// extension. InputError for an object without an
+// original.
+std::vector<std::int64_t> PairWithOriginals(const ObjectSource& objects,
+                                            const ObjectSource& originals);
 
-// The rows of scores.csv. `egad`: with EGAD's score of the same graspability; `baselines`: with
-// theirs and the difference.
-std::vector<ScoreRow> ScoreRows(const std::vector<ScoredObject>& scored, bool egad,
-                                const std::vector<ScoredObject>* baselines);
-std::string GraspsCsv(const std::vector<ScoredObject>& scored);
-
-// "12345 candidate grasps: 48 % kept, 20 % slip, ..., 3 copies", by the grasp model's reasons.
-std::string AcceptanceLine(const std::vector<ScoredObject>& scored);
+// The row of scores.csv. `egad`: with EGAD's score of the same graspability; `baseline`: with the
+// original's graspability and the difference.
+ScoreRow RowOf(const ScoredObject& scored, bool egad, const double* baseline);
 
 }  // namespace antigrasp

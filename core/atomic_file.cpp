@@ -5,7 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <map>
 #include <sstream>
 
 #include "antigrasp/core/error.h"
@@ -56,7 +56,15 @@ AtomicFile::~AtomicFile() {
   fs::remove(temp_, ignored);
 }
 
+void AtomicFile::Append(std::string_view bytes) {
+  if (!out_.is_open()) out_.open(temp_, std::ios::binary | std::ios::trunc);
+  out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out_.flush();
+  if (!out_) FailIo("write", target_);
+}
+
 void AtomicFile::Commit() {
+  out_.close();
   SyncToDisk(temp_, O_WRONLY);
   if (std::rename(temp_.c_str(), target_.c_str()) != 0) FailIo("rename to", target_);
   committed_ = true;
@@ -65,12 +73,7 @@ void AtomicFile::Commit() {
 
 void WriteFileAtomic(const fs::path& target, std::string_view bytes) {
   AtomicFile file(target);
-  {
-    std::ofstream out(file.temp_path(), std::ios::binary | std::ios::trunc);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.flush();
-    if (!out) FailIo("write", target);
-  }
+  file.Append(bytes);
   file.Commit();
 }
 
@@ -90,6 +93,20 @@ std::string ReadFile(const fs::path& path) {
   bytes << in.rdbuf();
   if (!in) throw InputError("read error", path.string(), "a readable file");
   return std::move(bytes).str();
+}
+
+void RequireApart(const std::vector<fs::path>& written) {
+  std::map<fs::path, fs::path> seen;  // as given, by the file it names
+  for (const fs::path& path : written) {
+    if (path.empty()) continue;
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(path, error);
+    const auto [at, fresh] = seen.emplace(error ? path : real, path);
+    if (!fresh) {
+      throw InputError("two files would be written as one", path.string(),
+                       "another name than " + at->second.string());
+    }
+  }
 }
 
 void MakeFolder(const fs::path& folder) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace antigrasp {
 
@@ -17,11 +19,13 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   const std::filesystem::path& temp_path() const { return temp_; }
+  void Append(std::string_view bytes);  // RuntimeFailure when the disk is full
   void Commit();  // RuntimeFailure when the disk is full or the rename is refused
 
  private:
   std::filesystem::path target_;
   std::filesystem::path temp_;
+  std::ofstream out_;  // open once something was appended
   bool committed_ = false;
 };
 
@@ -33,6 +37,9 @@ std::string ReadFile(const std::filesystem::path& path);
 
 // Throws InputError unless `path` is an existing, regular, readable file. `expected` ends the line.
 void RequireFile(const std::filesystem::path& path, const std::string& expected);
+
+// InputError when two of the files to be written are one; empty paths are none.
+void RequireApart(const std::vector<std::filesystem::path>& written);
 
 // Creates the folder (and parents). InputError when something else is in the way or not writable.
 void MakeFolder(const std::filesystem::path& folder);

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace antigrasp {
@@ -26,6 +27,9 @@ class CsvWriter {
   void EndRow();
 
   const std::string& text() const { return text_; }  // lines end in LF
+  // What was added since the last call, the header before the first row: for tables that do not fit
+  // into memory.
+  std::string TakeText() { return std::exchange(text_, {}); }
 
  private:
   CsvWriter& Append(std::string_view field);

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <memory>
+#include <set>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/datasets/mesh_folder.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/repair.h"
@@ -17,12 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExpected =
     "a mesh (STL, OBJ, PLY, OFF), a folder of meshes or an antigrasp SDF file";
-
-// Where one object comes from; loading is put off so that it can run in parallel.
-struct Source {
-  std::string name;
-  std::function<InputObject()> load;
-};
 
 InputObject FromMesh(const TriangleMesh& mesh) {
   const RepairResult repaired = Repair(mesh);
@@ -48,84 +45,124 @@ InputObject FromGrid(const SdfGrid& grid) {
   return object;
 }
 
-void AddFolder(const fs::path& folder, std::vector<Source>* sources) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file() && IsMeshFile(entry.path())) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  for (const fs::path& file : files) {
-    sources->push_back({fs::relative(file, folder).string(), [file] {
-                          try {
-                            return FromMesh(ReadMesh(file));
-                          } catch (const InputError& error) {
-                            InputObject object;
-                            object.status = "not readable";
-                            object.note = error.what();
-                            return object;
-                          }
-                        }});
+// An unreadable mesh in a folder is no reason to leave the others.
+InputObject FromFileInFolder(const fs::path& file) {
+  try {
+    return FromMesh(ReadMesh(file));
+  } catch (const InputError& error) {
+    InputObject object;
+    object.status = "not readable";
+    object.note = error.what();
+    return object;
   }
 }
 
-void AddShapeSet(const fs::path& path, std::vector<Source>* sources) {
-  const auto set = std::make_shared<ShapeSet>(ReadShapeSet(path));
-  for (std::size_t i = 0; i < set->grids.size(); ++i) {
-    sources->push_back({set->names[i], [set, i] { return FromGrid(set->grids[i]); }});
-  }
-}
+// One object before it has a name of its own.
+struct Found {
+  ObjectOrigin origin;
+  fs::path file;
+  std::function<InputObject()> load;
+};
 
-std::vector<Source> ListSources(const std::vector<std::string>& inputs) {
-  std::vector<Source> sources;
-  for (const std::string& input : inputs) {
-    const fs::path path(input);
-    if (fs::is_directory(path)) {
-      AddFolder(path, &sources);
-    } else if (!fs::exists(path)) {
-      throw InputError("no such file or folder", input, kExpected);
-    } else if (IsShapeSet(path)) {
-      AddShapeSet(path, &sources);
-    } else if (IsMeshFile(path)) {
-      sources.push_back({path.filename().string(), [path] { return FromMesh(ReadMesh(path)); }});
-    } else {
-      ReadShapeSet(path);  // says what keeps it from being an SDF file
-      throw InputError("unknown kind of file", input, kExpected);
+std::vector<Found> FindIn(const std::string& input) {
+  const fs::path path(input);
+  std::vector<Found> found;
+  if (fs::is_directory(path)) {
+    for (const fs::path& file : MeshFilesIn(path)) {
+      found.push_back({{file.lexically_relative(path).string(), path}, file, [file] {
+                         return FromFileInFolder(file);
+                       }});
     }
+  } else if (!fs::exists(path)) {
+    throw InputError("no such file or folder", input, kExpected);
+  } else if (IsShapeSet(path)) {
+    const auto set = std::make_shared<ShapeSetReader>(path);
+    const fs::path folder = fs::path(path).replace_extension();
+    for (std::string& name : set->Names()) {
+      const int grid = static_cast<int>(found.size());
+      found.push_back(
+          {{std::move(name), folder}, path, [set, grid] { return FromGrid(set->Grid(grid)); }});
+    }
+  } else if (IsMeshFile(path)) {
+    found.push_back({{path.filename().string(), fs::absolute(path).parent_path()}, path, [path] {
+                       return FromMesh(ReadMesh(path));
+                     }});
+  } else {
+    ReadShapeSetInfo(path);  // says what keeps it from being an SDF file
+    throw InputError("unknown kind of file", input, kExpected);
   }
-  return sources;
+  return found;
 }
 
 }  // namespace
 
-std::vector<InputObject> LoadObjects(const std::vector<std::string>& inputs, int threads,
+struct ObjectSource::Source {
+  std::string name;
+  std::size_t input;
+  fs::path file;
+  std::function<InputObject()> load;
+};
+
+ObjectSource::ObjectSource(const std::vector<std::string>& inputs) {
+  std::vector<ObjectOrigin> origins;
+  for (std::size_t input = 0; input < inputs.size(); ++input) {
+    for (Found& found : FindIn(inputs[input])) {
+      origins.push_back(std::move(found.origin));
+      sources_.push_back({"", input, std::move(found.file), std::move(found.load)});
+    }
+  }
+  if (sources_.empty()) throw InputError("no object", inputs.front(), kExpected);
+  std::vector<std::string> names = DistinctNames(origins);
+  for (std::size_t i = 0; i < names.size(); ++i) sources_[i].name = std::move(names[i]);
+}
+
+ObjectSource::~ObjectSource() = default;
+
+std::int64_t ObjectSource::size() const { return std::ssize(sources_); }
+
+const std::string& ObjectSource::name(std::int64_t i) const {
+  return sources_[static_cast<std::size_t>(i)].name;
+}
+
+std::size_t ObjectSource::input(std::int64_t i) const {
+  return sources_[static_cast<std::size_t>(i)].input;
+}
+
+InputObject ObjectSource::Load(std::int64_t i) const {
+  InputObject object = sources_[static_cast<std::size_t>(i)].load();
+  object.name = name(i);
+  return object;
+}
+
+void ObjectSource::RequireNotRead(const std::vector<fs::path>& written) const {
+  std::set<fs::path> read;
+  for (const Source& source : sources_) read.insert(fs::weakly_canonical(source.file));
+  for (const fs::path& path : written) {
+    if (path.empty() || !read.contains(fs::weakly_canonical(path))) continue;
+    throw InputError("would be written over an object's file", path.string(), "another --out");
+  }
+}
+
+std::vector<InputObject> LoadObjects(const ObjectSource& source, int threads,
                                      const ProgressFn& progress, std::size_t limit) {
-  std::vector<Source> sources = ListSources(inputs);
-  if (limit > 0 && sources.size() > limit) sources.resize(limit);
-  if (sources.empty()) throw InputError("no object", inputs.front(), kExpected);
-  std::vector<InputObject> objects(sources.size());
+  const auto all = static_cast<std::size_t>(source.size());
+  std::vector<InputObject> objects(limit > 0 ? std::min(limit, all) : all);
   ParallelFor(
-      static_cast<std::int64_t>(sources.size()), threads,
-      [&](std::int64_t i) {
-        const auto slot = static_cast<std::size_t>(i);
-        objects[slot] = sources[slot].load();
-        objects[slot].name = sources[slot].name;
-      },
-      progress);
+      std::ssize(objects), threads,
+      [&](std::int64_t i) { objects[static_cast<std::size_t>(i)] = source.Load(i); }, progress);
   return objects;
 }
 
-std::string FileNameOf(const std::string& object_name) {
-  std::string name = object_name;
-  if (IsMeshFile(name)) name = fs::path(name).replace_extension().string();
-  std::replace(name.begin(), name.end(), '/', '_');
-  return name;
+std::vector<InputObject> LoadObjects(const std::vector<std::string>& inputs, int threads,
+                                     const ProgressFn& progress, std::size_t limit) {
+  return LoadObjects(ObjectSource(inputs), threads, progress, limit);
 }
 
-std::string CountByStatus(const std::vector<InputObject>& objects) {
+std::string CountByStatus(const std::vector<std::string>& statuses) {
   std::map<std::string, int> counts;
-  for (const InputObject& object : objects) ++counts[object.status];
+  for (const std::string& status : statuses) ++counts[status];
   std::string text =
-      std::to_string(objects.size()) + " objects: " + std::to_string(counts["ok"]) + " ok";
+      std::to_string(statuses.size()) + " objects: " + std::to_string(counts["ok"]) + " ok";
   for (const auto& [status, count] : counts) {
     if (status != "ok") text += ", " + std::to_string(count) + " " + status;
   }

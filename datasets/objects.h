@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "antigrasp/core/parallel.h"
+#include "antigrasp/datasets/object_names.h"
 #include "antigrasp/mesh/triangle_mesh.h"
 
 namespace antigrasp {
@@ -18,18 +20,36 @@ struct InputObject {
   bool ok() const { return status == "ok"; }
 };
 
-// Mesh files, folders (searched recursively) and SDF files, in the order given, sorted inside a
-// folder. A mesh is usable when it is closed and oriented after repair. InputError for a missing
-// path, for a file of unknown kind, for an unreadable file that was named itself, and for no object
-// at all; an unreadable mesh inside a folder is an object with that status. `limit`: at most the
-// first so many; 0 = all.
+// The objects of mesh files, folders (searched recursively) and SDF files, in the order given,
+// sorted inside a folder. Their names are known at once and told apart (DistinctNames); an object
+// is read when it is asked for, so that memory need not grow with their number.
+class ObjectSource {
+ public:
+  // InputError for a missing path, for a file of unknown kind and for no object at all.
+  explicit ObjectSource(const std::vector<std::string>& inputs);
+  ~ObjectSource();
+  std::int64_t size() const;
+  const std::string& name(std::int64_t i) const;
+  std::size_t input(std::int64_t i) const;  // which of the inputs it came with
+  // Any thread may call. A mesh is usable when it is closed and oriented after repair. InputError
+  // for an unreadable file that was named itself and for a damaged grid; an unreadable mesh inside
+  // a folder is an object with that status.
+  InputObject Load(std::int64_t i) const;
+  // InputError when one of the files to be written is a file that objects are read from.
+  void RequireNotRead(const std::vector<std::filesystem::path>& written) const;
+
+ private:
+  struct Source;
+  std::vector<Source> sources_;
+};
+
+// All at once, or the first `limit` of them (0 = all).
+std::vector<InputObject> LoadObjects(const ObjectSource& source, int threads,
+                                     const ProgressFn& progress = nullptr, std::size_t limit = 0);
 std::vector<InputObject> LoadObjects(const std::vector<std::string>& inputs, int threads,
                                      const ProgressFn& progress = nullptr, std::size_t limit = 0);
 
-// A file name for an object's name: path separators become underscores, an extension is dropped.
-std::string FileNameOf(const std::string& object_name);
-
-// "12 objects: 10 ok, 1 empty, 1 open: 4 boundary edges".
-std::string CountByStatus(const std::vector<InputObject>& objects);
+// "12 objects: 10 ok, 1 empty, 1 open: 4 boundary edges", of their statuses.
+std::string CountByStatus(const std::vector<std::string>& statuses);
 
 }  // namespace antigrasp

@@ -10,6 +10,7 @@
 
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/ordered_stream.h"
 #include "antigrasp/datasets/bottle.h"
 #include "antigrasp/datasets/grafted_solid.h"
 #include "antigrasp/sdf/remesh.h"
@@ -183,6 +184,22 @@ void CheckOptions(const PriorSetOptions& options) {
   }
 }
 
+// The set without its shapes.
+ShapeSet About(const PriorSetOptions& options) {
+  CheckOptions(options);
+  return {options.kind, options.seed,
+          "prior set " + options.kind + ", seed " + std::to_string(options.seed) + ", count " +
+              std::to_string(options.count)};
+}
+
+template <typename Take>  // take(name, grid)
+void StreamShapes(const PriorSetOptions& options, const Take& take, const ProgressFn& progress) {
+  StreamInOrder(
+      options.count, options.threads, [&](std::int64_t i) { return MakeShape(options, i); },
+      [&](std::int64_t i, SdfGrid grid) { take(ShapeName(options.kind, i), std::move(grid)); },
+      progress);
+}
+
 }  // namespace
 
 std::vector<std::string> PriorSetKinds() {
@@ -192,22 +209,24 @@ std::vector<std::string> PriorSetKinds() {
 }
 
 ShapeSet MakePriorSet(const PriorSetOptions& options, const ProgressFn& progress) {
-  CheckOptions(options);
-  ShapeSet set;
-  set.kind = options.kind;
-  set.seed = options.seed;
-  set.provenance = "prior set " + options.kind + ", seed " + std::to_string(options.seed) +
-                   ", count " + std::to_string(options.count);
-  set.names.resize(static_cast<std::size_t>(options.count));
-  set.grids.resize(static_cast<std::size_t>(options.count));
-  ParallelFor(
-      options.count, options.threads,
-      [&](std::int64_t i) {
-        set.names[static_cast<std::size_t>(i)] = ShapeName(options.kind, i);
-        set.grids[static_cast<std::size_t>(i)] = MakeShape(options, i);
+  ShapeSet set = About(options);
+  StreamShapes(
+      options,
+      [&](std::string name, SdfGrid grid) {
+        set.names.push_back(std::move(name));
+        set.grids.push_back(std::move(grid));
       },
       progress);
   return set;
+}
+
+void WritePriorSet(const std::filesystem::path& path, const PriorSetOptions& options,
+                   const ProgressFn& progress) {
+  ShapeSetWriter writer(path, About(options), static_cast<std::size_t>(options.count));
+  StreamShapes(
+      options, [&](std::string name, const SdfGrid& grid) { writer.Add(std::move(name), grid); },
+      progress);
+  writer.Commit();
 }
 
 }  // namespace antigrasp

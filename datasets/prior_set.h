@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,5 +26,9 @@ struct PriorSetOptions {
 // Exact distances, surface inside the grid border, whole set scaled as VI-C says. Shape i depends
 // on (kind, seed, i) only.
 ShapeSet MakePriorSet(const PriorSetOptions& options, const ProgressFn& progress = nullptr);
+
+// The same as an SDF file, shape by shape: memory does not grow with their number.
+void WritePriorSet(const std::filesystem::path& path, const PriorSetOptions& options,
+                   const ProgressFn& progress = nullptr);
 
 }  // namespace antigrasp

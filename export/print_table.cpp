@@ -36,7 +36,7 @@ std::string Line(const std::string& name, const std::string& size, const std::st
 
 std::string Table(const std::vector<PrintedObject>& objects) {
   std::size_t width = 6;
-  for (const PrintedObject& item : objects) width = std::max(width, item.object.name.size());
+  for (const PrintedObject& item : objects) width = std::max(width, item.name.size());
   std::string text = Line("object", "size in the pose, mm", "wall mm", "overhang", "on plate mm2",
                           "pose probability", width);
   for (const PrintedObject& item : objects) {
@@ -44,7 +44,7 @@ std::string Table(const std::vector<PrintedObject>& objects) {
     std::snprintf(overhang, sizeof overhang, "%.0f %%", 100.0 * item.check.overhang_share);
     std::snprintf(contact, sizeof contact, "%.0f", item.check.contact_mm2);
     std::snprintf(probability, sizeof probability, "%.0f %%", 100.0 * item.check.pose_probability);
-    text += Line(item.object.name, SizeText(item.check.print_size_mm), WallText(item.check.wall_mm),
+    text += Line(item.name, SizeText(item.check.print_size_mm), WallText(item.check.wall_mm),
                  overhang, contact, probability, width);
   }
   return text;
@@ -79,7 +79,7 @@ std::string PrintCsv(const std::vector<PrintedObject>& objects) {
   const auto add = [&](const Eigen::Vector3d& v) { csv.Numbers({v.x(), v.y(), v.z()}); };
   for (const PrintedObject& item : objects) {
     const PrintCheck& check = item.check;
-    csv.Text(item.object.name).Count(check.watertight);
+    csv.Text(item.name).Count(check.watertight);
     add(check.size_mm);
     csv.NumberOrGap(check.wall_mm.value_or(std::nan("")));
     csv.Number(check.thin_share);

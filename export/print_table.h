@@ -3,14 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "antigrasp/datasets/objects.h"
 #include "antigrasp/export/print_check.h"
 
 namespace antigrasp {
 
-// An object of the command line with its print check; the check is empty when it is not usable.
 struct PrintedObject {
-  InputObject object;
+  std::string name;
   PrintCheck check;
 };
 

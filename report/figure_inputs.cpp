@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <map>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
@@ -38,22 +37,8 @@ std::string FolderName(const std::string& folder) {
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
-std::vector<std::string> DisplayNames(const std::vector<InputObject>& objects,
-                                      const std::vector<std::string>& inputs) {
-  std::map<std::string, int> count;
-  for (const InputObject& object : objects) ++count[object.name];
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    std::string name = objects[i].name;
-    if (count[name] > 1 && inputs.size() == objects.size()) {
-      const fs::path input(inputs[i]);
-      name = FolderName(
-                 (fs::is_directory(input) ? input : fs::absolute(input).parent_path()).string()) +
-             "/" + name;
-    }
-    names.push_back(IsMeshFile(name) ? fs::path(name).replace_extension().string() : name);
-  }
-  return names;
+std::string DisplayName(const std::string& name) {
+  return IsMeshFile(name) ? fs::path(name).replace_extension().string() : name;
 }
 
 }  // namespace
@@ -68,7 +53,6 @@ std::vector<GraspedObject> GraspedObjects(const std::vector<std::string>& inputs
     throw InputError("too many objects", inputs.front(), "at most 100 in a figure");
   }
   CheckLabels(labels, objects.size());
-  const std::vector<std::string> names = DisplayNames(objects, inputs);
   std::vector<Graspability> scores = ScoreAll(
       std::ssize(objects),
       [&](std::int64_t i) {
@@ -81,7 +65,7 @@ std::vector<GraspedObject> GraspedObjects(const std::vector<std::string>& inputs
   for (std::size_t i = 0; i < objects.size(); ++i) {
     std::string status = objects[i].ok() ? std::string(Name(scores[i].status)) : objects[i].status;
     if (objects[i].ok()) std::replace(status.begin(), status.end(), '_', ' ');
-    grasped.push_back({labels.empty() ? names[i] : labels[i], std::move(status),
+    grasped.push_back({labels.empty() ? DisplayName(objects[i].name) : labels[i], std::move(status),
                        std::move(objects[i].mesh), std::move(scores[i])});
   }
   return grasped;
@@ -100,7 +84,7 @@ SdfFigure SdfFigureOf(const std::string& input, int resolution, int threads) {
   InputObject object = LoadObjects({input}, threads, nullptr, 1).front();
   if (!object.ok()) throw InputError(object.name + ": " + object.status, input, "a closed solid");
   SdfFigure figure;
-  figure.name = DisplayNames({object}, {input}).front();
+  figure.name = DisplayName(object.name);
   figure.grid = UnitCubeGrid(resolution);
   const BoundingBox box = Bounds(object.mesh);
   const double scale = (1.0 - 2.0 * kClearance * figure.grid.spacing) / box.Extent().maxCoeff();

@@ -88,20 +88,17 @@ Report TablesReport(const ReportSettings& settings, std::vector<Table> tables, R
 
 std::vector<ReportObject> LoadAll(const std::vector<std::string>& inputs,
                                   const ReportSettings& settings, RunObserver* observer) {
+  const ObjectSource source(inputs);
   std::vector<ReportObject> objects;
-  for (std::size_t group = 0; group < inputs.size(); ++group) {
-    const std::size_t left = settings.limit > 0 ? settings.limit - objects.size() : 0;
-    if (settings.limit > 0 && left == 0) break;
-    for (InputObject& input : LoadObjects({inputs[group]}, settings.threads,
-                                          observer->Phase("reading " + inputs[group]), left)) {
-      ReportObject object;
-      object.name = std::move(input.name);
-      object.group = group;
-      object.status = std::move(input.status);
-      object.shape.mesh = std::move(input.mesh);
-      if (!input.note.empty()) object.numbers.emplace_back("note", input.note);
-      objects.push_back(std::move(object));
-    }
+  for (InputObject& input :
+       LoadObjects(source, settings.threads, observer->Phase("reading"), settings.limit)) {
+    ReportObject object;
+    object.name = std::move(input.name);
+    object.group = source.input(std::ssize(objects));
+    object.status = std::move(input.status);
+    object.shape.mesh = std::move(input.mesh);
+    if (!input.note.empty()) object.numbers.emplace_back("note", input.note);
+    objects.push_back(std::move(object));
   }
   return objects;
 }

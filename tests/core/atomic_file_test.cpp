@@ -118,6 +118,29 @@ TEST(AtomicFile, ANameWithoutAFolderIsInTheWorkingFolder) {
   EXPECT_EQ(ReadFile(folder.path() / "a.txt"), "here");
 }
 
+TEST(AtomicFile, WhatIsAppendedIsThereAfterCommitAlone) {
+  const shapes::TempFolder folder;
+  {
+    AtomicFile file(folder / "a.txt");
+    file.Append("one ");
+    file.Append("two");
+    EXPECT_FALSE(fs::exists(folder / "a.txt"));
+    file.Commit();
+    AtomicFile other(folder / "b.txt");
+    other.Append("lost");
+  }
+  EXPECT_EQ(ReadFile(folder / "a.txt"), "one two");
+  EXPECT_EQ(FilesIn(folder.path()), 1);
+}
+
+TEST(RequireApart, RefusesTwoWaysToNameOneFile) {
+  const shapes::TempFolder folder;
+  fs::create_directory(folder / "sub");
+  RequireApart({folder / "a", folder / "b", "", ""});
+  EXPECT_THROW(RequireApart({folder / "a", folder / "b", folder / "a"}), InputError);
+  EXPECT_THROW(RequireApart({folder / "a", folder / "sub/../a"}), InputError);
+}
+
 TEST(MakeFolder, RefusesAFileInTheWay) {
   const shapes::TempFolder folder;
   WriteFileAtomic(folder.path() / "file", "x");

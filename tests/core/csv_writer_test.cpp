@@ -30,5 +30,17 @@ TEST(CsvWriter, RefusesARowOfAnotherLengthThanTheHeader) {
   EXPECT_THROW(csv.EndRow(), std::logic_error);
 }
 
+TEST(CsvWriter, WhatIsTakenBitByBitIsTheTable) {
+  CsvWriter csv({"a", "b"}), whole({"a", "b"});
+  std::string taken;
+  for (const int i : {1, 2, 3}) {
+    csv.Count(i).Text("x").EndRow();
+    whole.Count(i).Text("x").EndRow();
+    if (i != 2) taken += csv.TakeText();
+  }
+  EXPECT_EQ(taken, whole.text());
+  EXPECT_EQ(csv.TakeText(), "");
+}
+
 }  // namespace
 }  // namespace antigrasp

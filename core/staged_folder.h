@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+
+namespace antigrasp {
+
+// Files that appear in a folder together: write them into path(), a hidden folder in it, and
+// Commit() moves them. Without it they are removed again and the folder is as it was.
+class StagedFolder {
+ public:
+  // Makes the folder (and parents) where it is missing: InputError as MakeFolder.
+  explicit StagedFolder(std::filesystem::path folder);
+  ~StagedFolder();
+  StagedFolder(const StagedFolder&) = delete;
+  StagedFolder& operator=(const StagedFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  void Commit();  // RuntimeFailure when a file cannot be moved
+
+ private:
+  std::filesystem::path folder_, path_;
+  bool made_;  // the folder was not there before
+};
+
+}  // namespace antigrasp

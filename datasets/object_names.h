@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace antigrasp {
+
+// What an object is called unless another one is called so too, and the folder that holds it (of an
+// object in an SDF file: the file's path without its extension).
+struct ObjectOrigin {
+  std::string name;  // "mug.stl", "a/mug.stl", "cylinders-000017"
+  std::filesystem::path folder;
+};
+
+// A file name for an object's name: path separators become underscores, an extension is dropped.
+std::string FileNameOf(const std::string& object_name);
+
+// One name an object, no two with the same FileNameOf, so that neither rows of a table nor files
+// are mixed up. An object whose name is its own keeps it. Else the extension is written out
+// ("mug_stl" beside "mug_obj"), or as many folders come before the name as tell the objects apart
+// ("001_brick/google_16k/nontextured.stl"), or, of one object named twice, a number
+// ("mug_2.stl"). Depends on the order of the objects for those numbers only.
+std::vector<std::string> DistinctNames(const std::vector<ObjectOrigin>& objects);
+
+}  // namespace antigrasp

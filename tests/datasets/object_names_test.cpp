@@ -1,0 +1,67 @@
+#include "antigrasp/datasets/object_names.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace antigrasp {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST(ObjectNames, ANameThatIsOnesOwnStays) {
+  EXPECT_EQ(DistinctNames({{"mug.stl", "/a"}, {"deep/cup.obj", "/a"}, {"cylinders-000017", "/b"}}),
+            (Names{"mug.stl", "deep/cup.obj", "cylinders-000017"}));
+  EXPECT_EQ(DistinctNames({}), Names{});
+}
+
+// As YCB and Google's scanned objects lie on disk.
+TEST(ObjectNames, AsManyFoldersAsTellTheObjectsApartComeBeforeTheName) {
+  EXPECT_EQ(DistinctNames({{"nontextured.stl", "/ycb/001_brick/google_16k"},
+                           {"nontextured.stl", "/ycb/002_cube/google_16k"},
+                           {"other.stl", "/ycb/002_cube/google_16k"}}),
+            (Names{"001_brick/google_16k/nontextured.stl", "002_cube/google_16k/nontextured.stl",
+                   "other.stl"}));
+  EXPECT_EQ(DistinctNames({{"model.obj", "/gso/Mug/meshes"}, {"model.obj", "/gso/Shoe/meshes"}}),
+            (Names{"Mug/meshes/model.obj", "Shoe/meshes/model.obj"}));
+  EXPECT_EQ(DistinctNames({{"sample-000000", "/x/batch"}, {"sample-000000", "/x/batch0"}}),
+            (Names{"batch/sample-000000", "batch0/sample-000000"}));
+}
+
+TEST(ObjectNames, TheExtensionIsWrittenOutWhereItAloneDiffers) {
+  EXPECT_EQ(DistinctNames({{"mug.obj", "/pair"}, {"mug.stl", "/pair"}}),
+            (Names{"mug_obj", "mug_stl"}));
+  EXPECT_EQ(DistinctNames({{"mug.obj", "/a"}, {"mug.stl", "/a"}, {"mug.stl", "/b"}}),
+            (Names{"mug_obj", "a/mug.stl", "b/mug.stl"}));
+}
+
+TEST(ObjectNames, AnObjectNamedTwiceIsNumbered) {
+  EXPECT_EQ(DistinctNames({{"mug.stl", "/a"}, {"mug.stl", "/a"}, {"mug_2", "/c"}}),
+            (Names{"mug.stl", "mug_3.stl", "mug_2"}));
+  EXPECT_EQ(DistinctNames({{"same", "/set"}, {"same", "/set"}, {"", "/set"}}),
+            (Names{"same", "same_2", "unnamed"}));
+}
+
+TEST(ObjectNames, NoTwoNamesGiveOneFileWhateverTheyAre) {
+  std::vector<ObjectOrigin> objects;
+  for (const char* folder : {"/a", "/a/b", "/b/a", "/a_b", "/"}) {
+    for (const char* name :
+         {"m.stl", "b/m.stl", "b_m.stl", "m", "m.obj", "m_obj", "m_2", "a/b/m.stl"}) {
+      objects.push_back({name, folder});
+      objects.push_back({name, folder});
+    }
+  }
+  std::set<std::string> files;
+  for (const std::string& name : DistinctNames(objects)) files.insert(FileNameOf(name));
+  EXPECT_EQ(files.size(), objects.size());
+  EXPECT_FALSE(files.contains(""));
+}
+
+TEST(ObjectNames, FilesAreNamedWithoutFolderSeparatorsAndExtension) {
+  EXPECT_EQ(FileNameOf("a/b/mug.stl"), "a_b_mug");
+  EXPECT_EQ(FileNameOf("mug.STL"), "mug");
+  EXPECT_EQ(FileNameOf("mug.v2"), "mug.v2");
+}
+
+}  // namespace
+}  // namespace antigrasp
