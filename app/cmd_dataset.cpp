@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -6,6 +8,7 @@
 #include "antigrasp/app/console.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_writer.h"
+#include "antigrasp/core/statistics.h"
 #include "antigrasp/datasets/import.h"
 #include "antigrasp/datasets/prior_set.h"
 
@@ -21,8 +24,8 @@ struct ImportFlags {
   std::vector<std::string> inputs;
   std::string out;
   std::string report;
-  int resolution = 32;
-  int threads = 0;
+  std::string scale = "set";
+  ImportOptions options;
 };
 
 void Make(const MakeFlags& flags) {
@@ -34,31 +37,46 @@ void Make(const MakeFlags& flags) {
 }
 
 std::string ReportCsv(const std::vector<ImportedMesh>& reports) {
-  CsvWriter csv({"path", "status", "detail"});
+  CsvWriter csv({"path", "status", "detail", "nodes"});
   for (const ImportedMesh& report : reports) {
-    csv.Text(report.path).Text(report.status).Text(report.detail).EndRow();
+    csv.Text(report.path).Text(report.status).Text(report.detail);
+    csv.NumberOrGap(report.nodes > 0.0 ? report.nodes : std::nan("")).EndRow();
   }
   return csv.text();
 }
 
-void Import(const ImportFlags& flags) {
-  const AtomicFile probe(flags.out);
+// "longest sides: 12.5 to 28 of 32 nodes, median 20".
+void PrintNodes(const std::vector<ImportedMesh>& reports, int resolution) {
+  std::vector<double> nodes;
+  for (const ImportedMesh& report : reports) {
+    if (report.status != "refused") nodes.push_back(report.nodes);
+  }
+  const auto [least, most] = std::minmax_element(nodes.begin(), nodes.end());
+  std::printf("longest sides: %.3g to %.3g of %d nodes, median %.3g\n", *least, *most, resolution,
+              DiscretePercentile(nodes, 50.0));
+}
+
+void Import(ImportFlags flags) {
+  { const AtomicFile probe(flags.out); }
+  RequireApart({flags.out, flags.report});
+  flags.options.scale = flags.scale == "each" ? ImportScale::kEach : ImportScale::kSet;
   ConsoleObserver console;
   const std::vector<std::filesystem::path> inputs(flags.inputs.begin(), flags.inputs.end());
-  const ImportResult result =
-      ImportMeshes(inputs, flags.resolution, flags.threads, console.Phase("importing"));
+  const std::vector<ImportedMesh> reports =
+      ImportMeshes(inputs, flags.out, flags.options, console.Phase("importing"));
   std::map<std::string, int> counts;
-  for (const ImportedMesh& report : result.reports) {
+  for (const ImportedMesh& report : reports) {
     ++counts[report.status];
     if (report.status != "accepted") {
       std::printf("%-8s %s: %s\n", report.status.c_str(), report.path.c_str(),
                   report.detail.c_str());
     }
   }
-  WriteShapeSet(flags.out, result.set);
-  if (!flags.report.empty()) WriteFileAtomic(flags.report, ReportCsv(result.reports));
-  std::printf("%s: %zu shapes (%d accepted, %d repaired, %d refused)\n", flags.out.c_str(),
-              result.set.grids.size(), counts["accepted"], counts["repaired"], counts["refused"]);
+  if (!flags.report.empty()) WriteFileAtomic(flags.report, ReportCsv(reports));
+  std::printf("%s: %d shapes (%d accepted, %d repaired, %d refused)\n", flags.out.c_str(),
+              counts["accepted"] + counts["repaired"], counts["accepted"], counts["repaired"],
+              counts["refused"]);
+  PrintNodes(reports, flags.options.resolution);
 }
 
 }  // namespace
@@ -89,7 +107,13 @@ void AddDatasetCommand(CLI::App* app) {
   import->add_option("MESH", import_flags->inputs, "mesh files or folders")->required();
   import->add_option("--out", import_flags->out, "SDF file to write (HDF5)")->required();
   import->add_option("--report", import_flags->report, "CSV with one row per mesh");
-  import->add_option("--threads", import_flags->threads, "threads; 0 = all")
+  import
+      ->add_option("--scale", import_flags->scale,
+                   "set: one factor for all, which leaves out what is far larger than the others; "
+                   "each: every object as large as the grid allows")
+      ->check(CLI::IsMember({"set", "each"}))
+      ->capture_default_str();
+  import->add_option("--threads", import_flags->options.threads, "threads; 0 = all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   import->callback([import_flags] { Import(*import_flags);

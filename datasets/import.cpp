@@ -1,6 +1,8 @@
 #include "antigrasp/datasets/import.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -8,6 +10,12 @@
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
+#include "antigrasp/core/ordered_stream.h"
+#include "antigrasp/core/spool.h"
+#include "antigrasp/core/statistics.h"
+#include "antigrasp/datasets/mesh_folder.h"
+#include "antigrasp/datasets/object_names.h"
+#include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/repair.h"
 #include "antigrasp/sdf/mesh_to_sdf.h"
@@ -22,28 +30,15 @@ constexpr double kClearance = 2.0;
 
 struct Source {
   fs::path path;
-  std::string name;  // relative to the folder it was found in
+  ObjectOrigin origin;  // named from the folder it was found in
 };
 
-// One file on its way through the import; `mesh` is empty once it is refused.
+// One file on its way through the import.
 struct Item {
-  TriangleMesh mesh;
   ImportedMesh report;
   bool usable = false;
+  double extent = 0.0;  // longest side of the bounding box, in the unit of the file
 };
-
-void AddFolder(const fs::path& folder, std::vector<Source>* sources) {
-  std::error_code error;
-  fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error);
-  for (; !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
-    std::error_code ignored;
-    if (!it->is_regular_file(ignored) || !IsMeshFile(it->path())) continue;
-    sources->push_back({it->path(), it->path().lexically_relative(folder).generic_string()});
-  }
-  if (error) {
-    throw InputError("cannot search: " + error.message(), folder.string(), "a readable folder");
-  }
-}
 
 // Every file once, sorted by path, so that the set depends neither on the order in which the file
 // system lists it nor on that of the arguments.
@@ -56,9 +51,11 @@ std::vector<Source> FindSources(const std::vector<fs::path>& inputs) {
       throw InputError("no such file or folder", input.string(), "mesh files or folders of them");
     }
     if (fs::is_directory(status)) {
-      AddFolder(input, &sources);
+      for (const fs::path& file : MeshFilesIn(input)) {
+        sources.push_back({file, {file.lexically_relative(input).generic_string(), input}});
+      }
     } else {
-      sources.push_back({input, input.filename().string()});
+      sources.push_back({input, {input.filename().string(), fs::absolute(input).parent_path()}});
     }
   }
   std::stable_sort(sources.begin(), sources.end(),
@@ -72,58 +69,127 @@ std::vector<Source> FindSources(const std::vector<fs::path>& inputs) {
   return sources;
 }
 
+// What to call them, and InputError when one of them would be written over.
+std::vector<std::string> NamesOf(const std::vector<Source>& sources, const fs::path& out) {
+  std::vector<ObjectOrigin> origins;
+  for (const Source& source : sources) {
+    std::error_code ignored;
+    if (fs::equivalent(source.path, out, ignored)) {
+      throw InputError("would be written over a mesh to import", out.string(), "another --out");
+    }
+    origins.push_back(source.origin);
+  }
+  return DistinctNames(origins);
+}
+
 std::string Sentence(const std::vector<std::string>& parts) {
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
   return text;
 }
 
-Item ReadItem(const fs::path& path) {
-  Item item;
-  item.report.path = path.string();
-  item.report.status = "refused";
-  try {
-    RepairResult repaired = Repair(ReadMesh(path));
-    if (!repaired.accepted()) {
-      item.report.detail = repaired.refusal;
-      return item;
-    }
-    item.mesh = std::move(repaired.mesh);
-    item.usable = true;
-    item.report.status = repaired.actions.empty() ? "accepted" : "repaired";
-    item.report.detail = Sentence(repaired.actions);
-  } catch (const InputError& error) {
-    item.report.detail = std::string("not readable: ") + error.what();
-  }
-  return item;
-}
-
-double LargestExtent(const std::vector<Item>& items) {
-  double largest = 0.0;
-  for (const Item& item : items) {
-    if (item.usable) largest = std::max(largest, Bounds(item.mesh).Extent().maxCoeff());
-  }
-  return largest;
-}
-
-// Refuses the mesh when nothing of it is left on the grid.
-SdfGrid ToGrid(Item* item, double scale, int resolution) {
-  SdfGrid grid = UnitCubeGrid(resolution);
-  MeshToSdf(Transformed(item->mesh, scale, -scale * Bounds(item->mesh).Center()), &grid);
-  item->mesh = {};
-  if (*std::max_element(grid.values.begin(), grid.values.end()) > 0.0f) return grid;
-  const std::string n = std::to_string(resolution);
+void Refuse(const std::string& why, Item* item) {
   item->usable = false;
   item->report.status = "refused";
-  item->report.detail =
-      "too thin for the grid: no node of " + n + "^3 is inside, at the scale of the whole set";
+  item->report.detail = why;
+}
+
+// The mesh is empty unless it is usable.
+std::pair<Item, TriangleMesh> ReadItem(const fs::path& path) {
+  Item item;
+  item.report.path = path.string();
+  try {
+    RepairResult repaired = Repair(ReadMesh(path));
+    if (repaired.accepted()) {
+      item.usable = true;
+      item.report.status = repaired.actions.empty() ? "accepted" : "repaired";
+      item.report.detail = Sentence(repaired.actions);
+      item.extent = Bounds(repaired.mesh).Extent().maxCoeff();
+      return {item, std::move(repaired.mesh)};
+    }
+    Refuse(repaired.refusal, &item);
+  } catch (const InputError& error) {
+    Refuse(std::string("not readable: ") + error.what(), &item);
+  }
+  return {item, {}};
+}
+
+// Meshes on disk, by number.
+class MeshSpool {
+ public:
+  MeshSpool(const fs::path& beside, std::size_t count) : spool_(beside), places_(count) {}
+  void Put(std::size_t i, const TriangleMesh& mesh) {
+    places_[i] = {mesh.vertices.size(), mesh.faces.size(),
+                  spool_.Append(mesh.vertices.data(), Bytes(mesh.vertices))};
+    spool_.Append(mesh.faces.data(), Bytes(mesh.faces));
+  }
+  TriangleMesh Get(std::size_t i) const {
+    TriangleMesh mesh;
+    mesh.vertices.resize(places_[i].vertices);
+    mesh.faces.resize(places_[i].faces);
+    const std::uint64_t at = places_[i].at;
+    spool_.Read(at, mesh.vertices.data(), Bytes(mesh.vertices));
+    spool_.Read(at + Bytes(mesh.vertices), mesh.faces.data(), Bytes(mesh.faces));
+    return mesh;
+  }
+
+ private:
+  struct Place {
+    std::size_t vertices = 0, faces = 0;
+    std::uint64_t at = 0;
+  };
+  template <typename T>
+  static std::size_t Bytes(const std::vector<T>& values) {
+    return values.size() * sizeof(T);
+  }
+  Spool spool_;
+  std::vector<Place> places_;
+};
+
+// Leaves out what is too large for the set; the longest side of the others.
+double LongestOfTheSet(std::vector<Item>* items) {
+  std::vector<double> extents;
+  for (const Item& item : *items) {
+    if (item.usable) extents.push_back(item.extent);
+  }
+  const double median = DiscretePercentile(extents, 50.0);
+  double longest = 0.0;
+  for (Item& item : *items) {
+    if (!item.usable) continue;
+    if (item.extent <= kLargestByMedian * median) {
+      longest = std::max(longest, item.extent);
+      continue;
+    }
+    char why[200];
+    std::snprintf(why, sizeof why,
+                  "too large for the set: %.3g long, the median is %.3g and at most %g times that "
+                  "is taken; another unit? --scale each takes every size",
+                  item.extent, median, kLargestByMedian);
+    Refuse(why, &item);
+  }
+  return longest;
+}
+
+SdfGrid ToGrid(const TriangleMesh& mesh, double scale, int resolution) {
+  SdfGrid grid = UnitCubeGrid(resolution);
+  MeshToSdf(Transformed(mesh, scale, -scale * Bounds(mesh).Center()), &grid);
   return grid;
 }
 
-void RequireUsable(const std::vector<Item>& items, const std::string& where) {
-  for (const Item& item : items) {
-    if (item.usable) return;
-  }
+bool HasInside(const SdfGrid& grid) {
+  return *std::max_element(grid.values.begin(), grid.values.end()) > 0.0f;
+}
+
+std::string TooThin(const ImportOptions& options) {
+  const std::string n = std::to_string(options.resolution);
+  return "too thin for the grid: no node of " + n + "^3 is inside" +
+         (options.scale == ImportScale::kSet ? ", at the scale of the whole set" : "");
+}
+
+std::size_t CountUsable(const std::vector<Item>& items, const std::string& where) {
+  const auto usable =
+      std::count_if(items.begin(), items.end(), [](const Item& i) { return i.usable; });
+  if (usable > 0) return static_cast<std::size_t>(usable);
   throw InputError("none of " + std::to_string(items.size()) + " mesh files is usable; " +
                        items.front().report.path + ": " + items.front().report.detail,
                    where, "at least one closed mesh in one piece that does not cross itself");
@@ -135,51 +201,96 @@ std::string Joined(const std::vector<fs::path>& inputs) {
   return Sentence(names);
 }
 
+// Every file read and repaired; usable meshes wait in the spool.
+std::vector<Item> ReadAll(const std::vector<Source>& sources, int threads, MeshSpool* spool,
+                          const ProgressFn& progress) {
+  std::vector<Item> items(sources.size());
+  StreamInOrder(
+      std::ssize(sources), threads,
+      [&](std::int64_t i) { return ReadItem(sources[static_cast<std::size_t>(i)].path); },
+      [&](std::int64_t i, std::pair<Item, TriangleMesh> read) {
+        const auto slot = static_cast<std::size_t>(i);
+        items[slot] = std::move(read.first);
+        if (items[slot].usable) spool->Put(slot, read.second);
+      },
+      progress);
+  return items;
+}
+
+// The grids of the usable meshes, in the order of the items, wait in the spool; what has nothing
+// inside is refused. `scale_of` an item.
+template <typename Scale>
+void GridAll(const MeshSpool& meshes, const Scale& scale_of, const ImportOptions& options,
+             std::vector<Item>* items, Spool* grids, const ProgressFn& progress) {
+  StreamInOrder(
+      std::ssize(*items), options.threads,
+      [&](std::int64_t i) -> std::optional<SdfGrid> {
+        const Item& item = (*items)[static_cast<std::size_t>(i)];
+        if (!item.usable) return std::nullopt;
+        return ToGrid(meshes.Get(static_cast<std::size_t>(i)), scale_of(item), options.resolution);
+      },
+      [&](std::int64_t i, const std::optional<SdfGrid>& grid) {
+        if (!grid) return;
+        Item& item = (*items)[static_cast<std::size_t>(i)];
+        item.report.nodes = scale_of(item) * item.extent / grid->spacing;
+        if (!HasInside(*grid)) return Refuse(TooThin(options), &item);
+        grids->Append(grid->values.data(), grid->values.size() * sizeof(float));
+      },
+      progress);
+}
+
+// Grid by grid: how many there are is known only now, and SDF files begin with it.
+void WriteGrids(const Spool& grids, const std::vector<Item>& items,
+                const std::vector<std::string>& names, int resolution, ShapeSetWriter* writer) {
+  SdfGrid grid = UnitCubeGrid(resolution);
+  const std::size_t bytes = grid.values.size() * sizeof(float);
+  std::uint64_t place = 0;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (!items[i].usable) continue;
+    grids.Read(place, grid.values.data(), bytes);
+    writer->Add(names[i], grid);
+    place += bytes;
+  }
+  writer->Commit();
+}
+
 }  // namespace
 
-ImportResult ImportMeshes(const std::vector<fs::path>& inputs, int resolution, int threads,
-                          const ProgressFn& progress) {
-  AG_CHECK(resolution > 2.0 * kClearance, "a grid larger than its border");
+std::vector<ImportedMesh> ImportMeshes(const std::vector<fs::path>& inputs, const fs::path& out,
+                                       const ImportOptions& options, const ProgressFn& progress) {
+  AG_CHECK(options.resolution > 2.0 * kClearance, "a grid larger than its border");
   const std::vector<Source> sources = FindSources(inputs);
   const std::string where = Joined(inputs);
-  if (sources.empty()) throw InputError("no mesh file", where, "*.stl, *.obj, *.ply or *.off");
+  if (sources.empty()) {
+    throw InputError("no mesh file", where, "*.stl, *.obj, *.ply or *.off");
+  }
+  const std::vector<std::string> names = NamesOf(sources, out);
 
   // Reading and gridding count as one step each.
-  const auto count = static_cast<std::int64_t>(sources.size());
+  const auto count = std::ssize(sources);
   const auto report_from = [&](std::int64_t offset) -> ProgressFn {
     if (!progress) return nullptr;
     return [&, offset](std::int64_t done, std::int64_t) { progress(offset + done, 2 * count); };
   };
-  std::vector<Item> items(sources.size());
-  ParallelFor(
-      count, threads, [&](std::int64_t i) { items[i] = ReadItem(sources[i].path); },
-      report_from(0));
-  RequireUsable(items, where);
+  Spool grids(out.string() + ".grids");
+  MeshSpool meshes(out.string() + ".meshes", sources.size());
+  std::vector<Item> items = ReadAll(sources, options.threads, &meshes, report_from(0));
+  CountUsable(items, where);
 
-  const double scale = (resolution - 2.0 * kClearance) / resolution / LargestExtent(items);
-  std::vector<SdfGrid> grids(items.size());
-  ParallelFor(
-      count, threads,
-      [&](std::int64_t i) {
-        if (items[i].usable) grids[i] = ToGrid(&items[i], scale, resolution);
-      },
-      report_from(count));
-  RequireUsable(items, where);
+  const double room = (options.resolution - 2.0 * kClearance) / options.resolution;
+  const bool one = options.scale == ImportScale::kSet;
+  const double scale = one ? room / LongestOfTheSet(&items) : 0.0;
+  const auto scale_of = [&](const Item& item) { return one ? scale : room / item.extent; };
+  GridAll(meshes, scale_of, options, &items, &grids, report_from(count));
 
-  ImportResult result;
-  result.set.kind = "import";
-  result.set.provenance = "imported from " + where + ", scaled by " + FormatDouble(scale);
-  std::set<std::string> names;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (items[i].usable) {
-      const bool is_new = names.insert(sources[i].name).second;
-      // Two folders may hold the same name.
-      result.set.names.push_back(is_new ? sources[i].name : sources[i].path.generic_string());
-      result.set.grids.push_back(std::move(grids[i]));
-    }
-    result.reports.push_back(std::move(items[i].report));
-  }
-  return result;
+  ShapeSet about{.kind = "import"};
+  about.provenance = "imported from " + where +
+                     (one ? ", scaled by " + FormatDouble(scale) : ", each scaled to the cube");
+  ShapeSetWriter writer(out, about, CountUsable(items, where));
+  WriteGrids(grids, items, names, options.resolution, &writer);
+  std::vector<ImportedMesh> reports;
+  for (Item& item : items) reports.push_back(std::move(item.report));
+  return reports;
 }
 
 }  // namespace antigrasp

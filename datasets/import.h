@@ -5,26 +5,39 @@
 #include <vector>
 
 #include "antigrasp/core/parallel.h"
-#include "antigrasp/datasets/shape_set.h"
 
 namespace antigrasp {
+
+// One factor for the whole set (VI-C), which keeps the objects' sizes; or each object as large as
+// the cube allows.
+enum class ImportScale { kSet, kEach };
+
+struct ImportOptions {
+  int resolution = 32;
+  ImportScale scale = ImportScale::kSet;
+  int threads = 0;  // 0 = all; the set does not depend on it
+};
+
+// With one factor for all, an object more than this many times as long as the set's median (lower)
+// is left out: it would leave half of the set at most 28 / 5 nodes of 32.
+inline constexpr double kLargestByMedian = 5.0;
 
 struct ImportedMesh {
   std::string path;
   std::string status;  // "accepted", "repaired", "refused"
   std::string detail;  // how it was repaired or why it was refused
+  double nodes = 0.0;  // length of its longest side on the grid, in distances of nodes; 0: unknown
 };
 
-struct ImportResult {
-  ShapeSet set;                       // the accepted and repaired ones, in path order
-  std::vector<ImportedMesh> reports;  // every file, in path order
-};
-
-// Mesh files, or folders searched recursively, to one set of grids. The whole set is scaled by one
-// factor and every mesh centred, so that the largest bounding box fits the unit cube inside the
-// border (VI-C). A bad mesh is reported, not fatal; InputError for a missing path, for no mesh file
-// at all and for no usable mesh.
-ImportResult ImportMeshes(const std::vector<std::filesystem::path>& inputs, int resolution,
-                          int threads, const ProgressFn& progress = nullptr);
+// Mesh files, or folders searched recursively, to one SDF file, whose names are told apart
+// (DistinctNames). Every mesh is centred, and scaled so that bounding boxes fit the unit cube
+// inside the border. A bad mesh and one of another size than the set are reported, not fatal;
+// InputError for a missing path, for no mesh file at all and for no usable mesh. The reports of
+// every file, in path order. Meshes and grids wait on disk beside `out`: memory does not grow with
+// their number.
+std::vector<ImportedMesh> ImportMeshes(const std::vector<std::filesystem::path>& inputs,
+                                       const std::filesystem::path& out,
+                                       const ImportOptions& options,
+                                       const ProgressFn& progress = nullptr);
 
 }  // namespace antigrasp

@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "antigrasp/core/error.h"
-#include "antigrasp/datasets/import.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "tests/datasets/imported.h"
 #include "tests/support/shapes.h"
 
 namespace antigrasp {
@@ -39,7 +39,7 @@ TEST(ImportMeshes, TheLongestSideOfAllSetsTheScaleAndAxesStay) {
   // 12 of 16 cells for the longest side, 24: half a cell for a unit.
   WriteMesh(folder / "a.obj", Transformed(shapes::Box({4, 12, 24}), 1.0, {100, -7, 3}));
   WriteMesh(folder / "b.obj", Transformed(shapes::Box({20, 8, 4}), 1.0, {0, 50, 0}));
-  const ImportResult result = ImportMeshes({folder.path()}, 16, 1);
+  const Imported result = Import({folder.path()}, 16, 1);
   ASSERT_EQ(result.set.grids.size(), 2U);
   EXPECT_EQ(InsideNodes(result.set.grids[0]), (std::array<int, 6>{7, 8, 5, 10, 2, 13}));
   EXPECT_EQ(InsideNodes(result.set.grids[1]), (std::array<int, 6>{3, 12, 6, 9, 7, 8}));
@@ -55,7 +55,7 @@ TEST(ImportMeshes, TheLongestSideOfAllSetsTheScaleAndAxesStay) {
 TEST(ImportMeshes, CentresTheBoundingBox) {
   const TempFolder folder;
   WriteMesh(folder / "corner.obj", shapes::Tetrahedron());
-  const SdfGrid grid = ImportMeshes({folder.path()}, 16, 1).set.grids.at(0);
+  const SdfGrid grid = Import({folder.path()}, 16, 1).set.grids.at(0);
   // The faces x = 0, y = 0, z = 0 lie six cells from the middle; the slope cuts the box.
   for (const auto index : {grid.Index(2, 3, 4), grid.Index(4, 2, 3), grid.Index(3, 4, 2)}) {
     EXPECT_NEAR(grid.values[index], 0.5 / 16, 1e-7);
@@ -69,7 +69,7 @@ TEST(ImportMeshes, ARefusedMeshDoesNotSetTheScale) {
   TriangleMesh open = shapes::Box({50, 50, 50});
   open.faces.pop_back();
   WriteMesh(folder / "b.obj", open);
-  const ImportResult result = ImportMeshes({folder.path()}, 16, 1);
+  const Imported result = Import({folder.path()}, 16, 1);
   ASSERT_EQ(result.set.grids.size(), 1U);
   EXPECT_EQ(InsideNodes(result.set.grids[0]), (std::array<int, 6>{2, 13, 2, 13, 2, 13}));
   EXPECT_EQ(result.reports.at(1).status, "refused");
@@ -80,7 +80,7 @@ TEST(ImportMeshes, AMeshTooThinForTheGridIsReportedInFull) {
   const TempFolder folder;
   WriteMesh(folder / "cube.obj", shapes::Cube());
   WriteMesh(folder / "needle.obj", shapes::Box({0.01, 0.01, 2}));
-  const ImportResult result = ImportMeshes({folder.path()}, 16, 1);
+  const Imported result = Import({folder.path()}, 16, 1);
   ASSERT_EQ(result.reports.size(), 2U);
   EXPECT_EQ(result.reports[0].path, (folder / "cube.obj").string());
   EXPECT_EQ(result.reports[0].status, "accepted");
@@ -101,7 +101,7 @@ TEST(ImportMeshes, SortsByPathAndNamesFromTheFolderThatWasGiven) {
   WriteMesh(folder / "a/z.obj", shapes::Box({12, 4, 4}));
   WriteMesh(folder / "a/deep/y.obj", shapes::Box({4, 12, 4}));
   WriteMesh(folder / "b/c.obj", shapes::Box({4, 4, 12}));
-  const ImportResult result = ImportMeshes({folder / "b/c.obj", folder / "a"}, 16, 2);
+  const Imported result = Import({folder / "b/c.obj", folder / "a"}, 16, 2);
   EXPECT_EQ(result.set.names, (std::vector<std::string>{"deep/y.obj", "z.obj", "c.obj"}));
   ASSERT_EQ(result.reports.size(), 3U);
   EXPECT_EQ(result.reports[0].path, (folder / "a/deep/y.obj").string());
@@ -117,7 +117,7 @@ TEST(ImportMeshes, TakesAFileOfTwoNamesOnce) {
   const TempFolder folder;
   WriteMesh(folder / "a.obj", shapes::Cube());
   std::filesystem::create_symlink(folder / "a.obj", folder / "b.obj");
-  const ImportResult result = ImportMeshes({folder.path(), folder / "a.obj"}, 16, 1);
+  const Imported result = Import({folder.path(), folder / "a.obj"}, 16, 1);
   EXPECT_EQ(result.set.names, std::vector<std::string>{"a.obj"});
   EXPECT_EQ(result.reports.size(), 1U);
 }
@@ -126,7 +126,7 @@ TEST(ImportMeshes, CountsReadingAndGriddingAsAStepEach) {
   const TempFolder folder;
   for (const char* name : {"a.obj", "b.obj", "c.obj"}) WriteMesh(folder / name, shapes::Cube());
   std::vector<std::int64_t> steps, totals;
-  ImportMeshes({folder.path()}, 16, 1, [&](std::int64_t done, std::int64_t total) {
+  Import({folder.path()}, 16, 1, ImportScale::kSet, [&](std::int64_t done, std::int64_t total) {
     steps.push_back(done);
     totals.push_back(total);
   });

@@ -10,6 +10,7 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "tests/datasets/imported.h"
 #include "tests/support/shapes.h"
 
 namespace antigrasp {
@@ -19,7 +20,7 @@ using shapes::TempFolder;
 
 std::string WhatIsThrown(const std::vector<std::filesystem::path>& inputs) {
   try {
-    ImportMeshes(inputs, 16, 1);
+    Import(inputs, 16, 1);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -65,7 +66,7 @@ void FillWithMixture(const TempFolder& folder) {
 TEST(ImportMeshes, AMixtureIsSortedIntoAcceptedRepairedAndRefused) {
   const TempFolder folder;
   FillWithMixture(folder);
-  const ImportResult result = ImportMeshes({folder.path()}, 32, 2);
+  const Imported result = Import({folder.path()}, 32, 2);
 
   std::map<std::string, std::pair<std::string, std::string>> reports;
   for (const ImportedMesh& report : result.reports) {
@@ -102,7 +103,7 @@ TEST(ImportMeshes, OneScaleForTheSetLeavesTwoCellsOnEverySide) {
   // Off centre, and of sizes 7 : 2. The larger one becomes 28/32 of the unit cube wide.
   WriteMesh(folder / "large.obj", Transformed(shapes::Cube(), 7.0, {100.0, -7.0, 3.0}));
   WriteMesh(folder / "small.obj", Transformed(shapes::Cube(), 2.0, {-5.0, 0.0, 0.0}));
-  const ImportResult result = ImportMeshes({folder.path()}, 32, 1);
+  const Imported result = Import({folder.path()}, 32, 1);
   ASSERT_EQ(result.set.grids.size(), 2u);
   const SdfGrid& large = result.set.grids[0];
   EXPECT_DOUBLE_EQ(InsideExtent(large), 28.0 / 32.0);
@@ -115,7 +116,7 @@ TEST(ImportMeshes, OneScaleForTheSetLeavesTwoCellsOnEverySide) {
 TEST(ImportMeshes, DistancesOfASphereAreExactUpToItsFacets) {
   const TempFolder folder;
   WriteMesh(folder / "sphere.ply", shapes::Sphere(3.0, 5));
-  const SdfGrid grid = ImportMeshes({folder / "sphere.ply"}, 16, 1).set.grids.at(0);
+  const SdfGrid grid = Import({folder / "sphere.ply"}, 16, 1).set.grids.at(0);
   const double radius = 0.5 * 12.0 / 16.0;
   for (int z = 0; z < 16; ++z) {
     for (int x = 0; x < 16; ++x) {
@@ -127,8 +128,8 @@ TEST(ImportMeshes, DistancesOfASphereAreExactUpToItsFacets) {
 TEST(ImportMeshes, TheSetDependsNeitherOnThreadsNorOnTheOrderOfInputs) {
   const TempFolder folder;
   FillWithMixture(folder);
-  const ImportResult one = ImportMeshes({folder.path()}, 16, 1);
-  const ImportResult four = ImportMeshes({folder / "b", folder.path()}, 16, 4);
+  const Imported one = Import({folder.path()}, 16, 1);
+  const Imported four = Import({folder / "b", folder.path()}, 16, 4);
   ASSERT_EQ(one.set.grids.size(), four.set.grids.size());
   for (std::size_t i = 0; i < one.set.grids.size(); ++i) {
     EXPECT_EQ(one.set.grids[i].values, four.set.grids[i].values);
@@ -145,25 +146,24 @@ TEST(ImportMeshes, EqualNamesInTwoFoldersStayApart) {
   std::filesystem::create_directories(folder / "b");
   WriteMesh(folder / "a/cube.stl", shapes::Cube());
   WriteMesh(folder / "b/cube.stl", shapes::Cube());
-  const auto names = ImportMeshes({folder / "a", folder / "b"}, 16, 1).set.names;
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"cube.stl", (folder / "b/cube.stl").generic_string()}));
+  const auto names = Import({folder / "a", folder / "b"}, 16, 1).set.names;
+  EXPECT_EQ(names, (std::vector<std::string>{"a/cube.stl", "b/cube.stl"}));
 }
 
 TEST(ImportMeshes, ProgressCountsUpToTheEndAndMayInterrupt) {
   const TempFolder folder;
   FillWithMixture(folder);
   std::int64_t last = 0, total = 0;
-  ImportMeshes({folder.path()}, 16, 2, [&](std::int64_t done, std::int64_t all) {
+  Import({folder.path()}, 16, 2, ImportScale::kSet, [&](std::int64_t done, std::int64_t all) {
     EXPECT_EQ(done, last + 1);
     last = done;
     total = all;
   });
   EXPECT_GT(total, 0);
   EXPECT_EQ(last, total);
-  EXPECT_THROW(
-      ImportMeshes({folder.path()}, 16, 2, [](std::int64_t, std::int64_t) { throw Interrupted(); }),
-      Interrupted);
+  EXPECT_THROW(Import({folder.path()}, 16, 2, ImportScale::kSet,
+                      [](std::int64_t, std::int64_t) { throw Interrupted(); }),
+               Interrupted);
 }
 
 TEST(ImportMeshes, InputsWithoutAUsableMeshAreErrorsThatSayWhy) {
@@ -177,7 +177,7 @@ TEST(ImportMeshes, InputsWithoutAUsableMeshAreErrorsThatSayWhy) {
   EXPECT_NE(message.find("square.stl"), std::string::npos) << message;
   const auto text = folder.Write("notes.txt", "x");
   EXPECT_NE(WhatIsThrown({text}).find("'.txt'"), std::string::npos);
-  EXPECT_THROW(ImportMeshes({folder.path()}, 4, 1), std::logic_error);
+  EXPECT_THROW(Import({folder.path()}, 4, 1), std::logic_error);
 }
 
 }  // namespace
