@@ -41,8 +41,10 @@ void DescribeMesh(const fs::path& path) {
   std::printf("  extent             %g x %g x %g\n", extent.x(), extent.y(), extent.z());
   std::printf("  watertight         %s\n  winding consistent %s\n  outward            %s\n",
               yes(report.closed), yes(report.oriented), yes(report.outward));
-  std::printf("  self-intersecting  %s\n  components         %d\n  genus              %d\n",
-              yes(report.self_intersecting), report.components, report.genus);
+  std::printf("  self-intersecting  %s\n  components         %d\n", yes(report.self_intersecting),
+              report.components);
+  if (report.voids > 0) std::printf("  closed voids       %d of them\n", report.voids);
+  std::printf("  genus              %d\n", report.genus);
   std::printf("  volume             %g\n  area               %g\n", report.volume, report.area);
   std::printf("  printable solid    %s\n", refusal.empty() ? "yes" : ("no: " + refusal).c_str());
 }

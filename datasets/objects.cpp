@@ -25,14 +25,9 @@ InputObject FromMesh(const TriangleMesh& mesh) {
   const RepairResult repaired = Repair(mesh);
   InputObject object;
   object.mesh = repaired.mesh;
-  const MeshReport& report = repaired.report;
-  const bool usable = report.finite && report.closed && report.oriented && report.volume > 0.0;
-  object.status = usable ? "ok" : repaired.refusal;
+  object.status = repaired.accepted() ? "ok" : repaired.refusal;
   for (const std::string& action : repaired.actions) {
     object.note += (object.note.empty() ? "" : "; ") + action;
-  }
-  if (usable && !repaired.refusal.empty()) {
-    object.note += (object.note.empty() ? "" : "; ") + repaired.refusal;
   }
   return object;
 }

@@ -16,7 +16,7 @@ struct InputObject {
   std::string name;
   TriangleMesh mesh;
   std::string status;  // "ok", or why there is no usable solid ("open: 12 boundary edges", ...)
-  std::string note;    // what was repaired, or what is unusual; may be empty
+  std::string note;    // what was repaired; may be empty
   bool ok() const { return status == "ok"; }
 };
 
@@ -31,9 +31,9 @@ class ObjectSource {
   std::int64_t size() const;
   const std::string& name(std::int64_t i) const;
   std::size_t input(std::int64_t i) const;  // which of the inputs it came with
-  // Any thread may call. A mesh is usable when it is closed and oriented after repair. InputError
-  // for an unreadable file that was named itself and for a damaged grid; an unreadable mesh inside
-  // a folder is an object with that status.
+  // Any thread may call. A mesh is usable when it is a solid after repair (mesh/repair.h).
+  // InputError for an unreadable file that was named itself and for a damaged grid; an unreadable
+  // mesh inside a folder is an object with that status.
   InputObject Load(std::int64_t i) const;
   // InputError when one of the files to be written is a file that objects are read from.
   void RequireNotRead(const std::vector<std::filesystem::path>& written) const;

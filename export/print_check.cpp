@@ -60,6 +60,11 @@ std::string Text(const char* format, double first, double second = 0.0) {
 std::vector<std::string> Notes(const PrintCheck& check, const PrintOptions& options) {
   std::vector<std::string> notes;
   if (!check.why_not_solid.empty()) notes.push_back("Not a solid: " + check.why_not_solid + ".");
+  if (check.voids > 0) {
+    notes.push_back(
+        (check.voids == 1 ? std::string("A void is") : std::to_string(check.voids) + " voids are") +
+        " closed in: powder, resin or support stays inside.");
+  }
   if (check.wall_mm && *check.wall_mm < options.min_wall_mm) {
     notes.push_back(
         Text("The thinnest wall is %.2g mm, below %g mm; ", *check.wall_mm, options.min_wall_mm) +
@@ -106,6 +111,7 @@ PrintCheck CheckPrint(const TriangleMesh& mesh, double size_mm, const PrintOptio
   const MeshReport report = Inspect(mesh);
   check.watertight = report.closed && report.outward;
   check.why_not_solid = WhyNotSolid(report);
+  check.voids = report.voids;
 
   WallOptions wall_options;
   wall_options.opposite_angle = options.opposite_angle;

@@ -33,6 +33,7 @@ struct PrintCheck {
   Eigen::Vector3d print_size_mm = Eigen::Vector3d::Zero();  // and in the suggested pose
   bool watertight = false;                                  // closed and wound outward
   std::string why_not_solid;      // "" when it is a printable solid (Inspect)
+  int voids = 0;                  // closed in, inside the body
   std::optional<double> wall_mm;  // smallest wall (wall_thickness.h); none when nothing is one
   Eigen::Vector3d wall_at = Eigen::Vector3d::Zero();  // where, on the mesh
   double thin_share = 0.0;                            // of the surface, in walls below min_wall_mm

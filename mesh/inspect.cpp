@@ -1,8 +1,10 @@
 #include "antigrasp/mesh/inspect.h"
 
 #include <algorithm>
-#include <numeric>
+#include <set>
 
+#include "antigrasp/mesh/nesting.h"
+#include "antigrasp/mesh/pieces.h"
 #include "antigrasp/mesh/self_intersection.h"
 #include "antigrasp/mesh/topology.h"
 
@@ -75,19 +77,28 @@ int CountVertices(const TriangleMesh& mesh, ParitySets* corners, bool* one_fan_e
   return used;
 }
 
-// Number of components, and whether each of them encloses a positive volume.
-int CountComponents(const TriangleMesh& mesh, ParitySets* faces, bool* all_positive) {
-  const Eigen::Vector3d origin = Bounds(mesh).Center();
-  std::vector<double> six_volume(mesh.faces.size(), 0.0);
-  std::vector<std::int32_t> roots;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const std::int32_t root = faces->Find(static_cast<std::int32_t>(f)).root;
-    if (root == static_cast<std::int32_t>(f)) roots.push_back(root);
-    six_volume[root] += (mesh.vertices[mesh.faces[f][0]] - origin).dot(FaceCross(mesh, f));
+// Fills the properties of the components. A void lies inside an odd number of others, and faces
+// inward; whatever else encloses matter.
+void ExamineComponents(const TriangleMesh& mesh, const Pieces& pieces, MeshReport* report) {
+  report->components = pieces.count;
+  const std::vector<int> depths =
+      report->closed ? NestingDepths(mesh, pieces) : std::vector<int>(pieces.count, 0);
+  const std::vector<double> six_volume = SixVolumes(mesh, pieces);
+  report->outward = report->closed && report->oriented;
+  for (std::int32_t p = 0; p < pieces.count; ++p) {
+    const bool is_void = depths[p] % 2 == 1;
+    report->voids += is_void;
+    if (!(is_void ? six_volume[p] < 0.0 : six_volume[p] > 0.0)) report->outward = false;
   }
-  *all_positive = std::all_of(roots.begin(), roots.end(),
-                              [&](std::int32_t root) { return six_volume[root] > 0.0; });
-  return static_cast<int>(roots.size());
+}
+
+// How many components meet another one.
+int CountOverlapping(const TriangleMesh& mesh, const Pieces& pieces) {
+  std::set<std::int32_t> overlapping;
+  for (const auto& [a, b] : MeetingPieces(mesh, pieces)) {
+    if (a != b) overlapping.insert({a, b});
+  }
+  return static_cast<int>(overlapping.size());
 }
 
 std::string Counted(int count, const std::string& singular) {
@@ -104,10 +115,9 @@ MeshReport Inspect(const TriangleMesh& mesh, bool check_self_intersection) {
   Adjacency adjacency = ExamineEdges(mesh, &report);
   bool one_fan_each = false;
   const int vertices = CountVertices(mesh, &adjacency.corners, &one_fan_each);
-  bool all_positive = false;
-  report.components = CountComponents(mesh, &adjacency.faces, &all_positive);
+  const Pieces pieces = PiecesOf(&adjacency.faces, mesh.faces.size());
+  ExamineComponents(mesh, pieces, &report);
   report.manifold = report.closed && one_fan_each;
-  report.outward = report.closed && report.oriented && all_positive;
   if (report.manifold && report.orientable && report.components == 1) {
     // Euler: V - E + F = 2 - 2 genus.
     report.genus = (2 - (vertices - adjacency.edges + static_cast<int>(mesh.faces.size()))) / 2;
@@ -119,6 +129,9 @@ MeshReport Inspect(const TriangleMesh& mesh, bool check_self_intersection) {
   report.area = SurfaceArea(mesh);
   report.center_of_mass = CenterOfMass(mesh);
   report.self_intersecting = check_self_intersection && SelfIntersects(mesh);
+  if (report.self_intersecting && pieces.count > 1) {
+    report.overlapping = CountOverlapping(mesh, pieces);
+  }
   return report;
 }
 
@@ -131,13 +144,16 @@ std::string WhyNotSolid(const MeshReport& report) {
            " with more than two faces";
   }
   if (!report.manifold) return "non-manifold: parts touch in a single vertex";
-  if (report.components > 1) return "disjoint pieces: " + std::to_string(report.components);
+  if (report.overlapping > 0) return "overlapping pieces: " + std::to_string(report.overlapping);
+  const int bodies = report.components - report.voids;
+  if (bodies > 1) return "disjoint pieces: " + std::to_string(bodies);
   if (!report.orientable) return "not orientable: one-sided surface";
   if (!report.oriented) return "winding not consistent: neighbouring faces disagree";
   if (report.degenerate_faces > 0) {
     return "degenerate: " + Counted(report.degenerate_faces, "face") + " without area";
   }
-  if (!report.outward || !(report.volume > 0.0)) return "inside-out: volume not positive";
+  if (!(report.volume > 0.0)) return "inside-out: volume not positive";
+  if (!report.outward) return "inside-out: a body or a void faces the wrong way";
   if (report.self_intersecting) return "self-intersecting";
   return "";
 }

@@ -15,10 +15,12 @@ struct MeshReport {
   bool manifold = false;           // and every vertex one fan of faces
   bool orientable = false;         // faces can be turned to agree across edges
   bool oriented = false;           // they do agree ("winding consistent")
-  bool outward = false;            // closed, oriented and volume > 0 in every component
+  bool outward = false;            // closed, oriented, every component outward but the voids
   bool self_intersecting = false;  // only tested when asked for; false otherwise
   int degenerate_faces = 0;        // repeated vertex or zero area
   int components = 0;              // connected by edges
+  int voids = 0;                   // of them: closed, and inside an odd number of others
+  int overlapping = 0;  // of them: meeting another one; only when self-intersection is asked for
   int boundary_edges = 0;
   int nonmanifold_edges = 0;  // with more than two faces
   int genus = 0;              // of a closed, manifold, orientable single component; else 0
@@ -26,18 +28,20 @@ struct MeshReport {
   double area = 0.0;
   Eigen::Vector3d center_of_mass = Eigen::Vector3d::Zero();
 
-  // Printable: one closed, manifold, outward, non-self-intersecting component with volume > 0.
+  // Printable: one closed, manifold, outward, non-self-intersecting component with volume > 0,
+  // maybe with voids in it.
   bool IsSolid() const {
     return finite && manifold && closed && outward && !self_intersecting && degenerate_faces == 0 &&
-           components == 1 && volume > 0.0;
+           components - voids == 1 && volume > 0.0;
   }
 };
 
 // Examines any mesh, however broken; never throws on geometry. The self-intersection test (CGAL) is
-// about 10 ms for 2,500 faces, the rest about 1 ms.
+// about 10 ms for 2,500 faces, the rest about 1 ms. Several components: see NestingDepths().
 MeshReport Inspect(const TriangleMesh& mesh, bool check_self_intersection = true);
 
-// The first thing that keeps the mesh from being a solid, in plain words; "" when it is one.
+// The first thing that keeps the mesh from being a solid, in plain words; "" when it is one. This
+// alone decides what is usable, after Repair(); docs/repair.md lists all that it says.
 std::string WhyNotSolid(const MeshReport& report);
 
 }  // namespace antigrasp

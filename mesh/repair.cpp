@@ -1,10 +1,14 @@
 #include "antigrasp/mesh/repair.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <limits>
 #include <utility>
 
+#include "antigrasp/mesh/clean_faces.h"
+#include "antigrasp/mesh/orient.h"
 #include "antigrasp/mesh/topology.h"
+#include "antigrasp/mesh/unite.h"
 #include "antigrasp/mesh/weld.h"
 
 namespace antigrasp {
@@ -34,62 +38,9 @@ void SayVertices(std::vector<std::string>* actions, const std::string& done, std
   Say(actions, done, count, kind, "vertex", "vertices");
 }
 
-void Redirect(const std::vector<std::int32_t>& first, TriangleMesh* mesh) {
-  for (auto& face : mesh->faces) {
-    for (std::int32_t& v : face) v = first[v];
-  }
-}
-
-// Returns how many went.
-std::size_t DropUnusedVertices(TriangleMesh* mesh) {
-  std::vector<std::int32_t> place(mesh->vertices.size(), -1);
-  for (const auto& face : mesh->faces) {
-    for (const std::int32_t v : face) place[v] = 0;
-  }
-  std::vector<Eigen::Vector3d> used;
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    if (place[i] < 0) continue;
-    place[i] = static_cast<std::int32_t>(used.size());
-    used.push_back(mesh->vertices[i]);
-  }
-  const std::size_t dropped = mesh->vertices.size() - used.size();
-  mesh->vertices = std::move(used);
-  Redirect(place, mesh);
-  return dropped;
-}
-
-template <typename Drop>
-std::size_t DropFaces(TriangleMesh* mesh, const Drop& drop) {
-  std::size_t kept = 0;
-  for (std::size_t f = 0; f < mesh->faces.size(); ++f) {
-    if (!drop(f)) mesh->faces[kept++] = mesh->faces[f];
-  }
-  const std::size_t dropped = mesh->faces.size() - kept;
-  mesh->faces.resize(kept);
-  return dropped;
-}
-
-// A face with a repeated vertex is a line: nothing is lost with it, not even closedness.
-std::size_t DropLines(TriangleMesh* mesh) {
-  return DropFaces(mesh, [&](std::size_t f) {
-    const auto& [a, b, c] = mesh->faces[f];
-    return a == b || b == c || c == a;
-  });
-}
-
-// Keeps the first of the faces on the same three vertices, in whatever order.
-std::size_t DropDuplicates(TriangleMesh* mesh) {
-  std::vector<std::pair<std::array<std::int32_t, 3>, std::size_t>> keys(mesh->faces.size());
-  for (std::size_t f = 0; f < keys.size(); ++f) {
-    keys[f] = {mesh->faces[f], f};
-    std::sort(keys[f].first.begin(), keys[f].first.end());
-  }
-  std::sort(keys.begin(), keys.end());
-  std::vector<bool> repeated(keys.size(), false);
-  for (std::size_t i = 1; i < keys.size(); ++i) {
-    if (keys[i].first == keys[i - 1].first) repeated[keys[i].second] = true;
-  }
-  return DropFaces(mesh, [&](std::size_t f) { return repeated[f]; });
+void SayCopies(std::vector<std::string>* actions, const DroppedCopies& copies, const char* kind) {
+  SayFaces(actions, "removed", copies.duplicates, kind);
+  SayFaces(actions, "removed", copies.cancelled, "cancelling");
 }
 
 void MergeEqual(RepairResult* result) {
@@ -100,61 +51,60 @@ void MergeEqual(RepairResult* result) {
   Redirect(first, &mesh);
   SayVertices(&result->actions, "merged", merged, "duplicate");
   SayFaces(&result->actions, "removed", DropLines(&mesh), "degenerate");
-  SayFaces(&result->actions, "removed", DropDuplicates(&mesh), "duplicate");
+  SayCopies(&result->actions, DropCopies(&mesh), "duplicate");
   // The merged ones are unused now, too, and have been told of.
   SayVertices(&result->actions, "removed", DropUnusedVertices(&mesh) - merged, "unused");
 }
 
-// Seams that rounding has opened. Only when that closes the mesh: merging is then a repair, and
+// How far apart one step of float32 leaves copies of a corner: it grows with the coordinate, so
+// this is for the mesh where its file has it.
+double Float32Step(const TriangleMesh& mesh) {
+  const BoundingBox box = Bounds(mesh);
+  const Eigen::Vector3d largest = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs());
+  Eigen::Vector3d step;
+  for (int k = 0; k < 3; ++k) {
+    const auto value = static_cast<float>(largest[k]);
+    step[k] = std::nextafter(value, std::numeric_limits<float>::infinity()) - value;
+  }
+  return (1.0 + kNearVertices) * step.norm();  // a step counts as one when it is rounded, too
+}
+
+// Merges vertices nearer than the tolerance, if that closes the mesh: merging is then a repair, and
 // not a guess.
-void MergeNear(RepairResult* result) {
-  if (Inspect(result->mesh, false).boundary_edges == 0) return;
+bool MergeWithin(double tolerance, RepairResult* result) {
   TriangleMesh merged = result->mesh;
-  const double tolerance = kNearVertices * Bounds(merged).Extent().norm();
   Redirect(FirstNear(merged.vertices, tolerance), &merged);
   const std::size_t lines = DropLines(&merged);
-  const std::size_t duplicates = DropDuplicates(&merged);
+  const DroppedCopies copies = DropCopies(&merged);
   const std::size_t vertices = DropUnusedVertices(&merged);
-  if (merged.faces.empty() || Inspect(merged, false).boundary_edges > 0) return;
+  if (merged.faces.empty() || Inspect(merged, false).boundary_edges > 0) return false;
   result->mesh = std::move(merged);
   SayVertices(&result->actions, "merged", vertices, "nearly equal");
   SayFaces(&result->actions, "removed", lines, "emptied");
-  SayFaces(&result->actions, "removed", duplicates, "doubled");
+  SayCopies(&result->actions, copies, "doubled");
+  return true;
 }
 
-// Makes neighbours agree, then every component enclose a positive volume.
+// Seams that rounding has opened.
+void MergeNear(RepairResult* result) {
+  if (Inspect(result->mesh, false).boundary_edges == 0) return;
+  const double near = kNearVertices * Bounds(result->mesh).Extent().norm();
+  const double step = Float32Step(result->mesh);
+  if (!MergeWithin(near, result) && step > near) MergeWithin(step, result);
+}
+
+// Makes neighbours agree, and pieces face outward or, as voids, inward; then pieces that overlap
+// become one.
 void Orient(RepairResult* result) {
-  TriangleMesh& mesh = result->mesh;
-  const bool closed = Inspect(mesh, false).closed;
-  ParitySets sets(mesh.faces.size());
-  ForEachEdge(SortedEdgeUses(mesh), [&](auto first, auto last) {
-    // More than two faces say nothing about which two belong together.
-    if (last - first != 2) return;
-    sets.Join(first->face, (first + 1)->face, first->forward == (first + 1)->forward);
-  });
-  const Eigen::Vector3d origin = Bounds(mesh).Center();
-  std::vector<double> six_volume(mesh.faces.size(), 0.0);
-  std::vector<int> surplus(mesh.faces.size(), 0);  // faces of parity even, less those of parity odd
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto [root, odd] = sets.Find(static_cast<std::int32_t>(f));
-    const double part = (mesh.vertices[mesh.faces[f][0]] - origin).dot(FaceCross(mesh, f));
-    six_volume[root] += odd ? -part : part;
-    surplus[root] += odd ? -1 : 1;
-  }
-  std::size_t turned = 0;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto [root, odd] = sets.Find(static_cast<std::int32_t>(f));
-    // An open component has no outside: the majority of its faces is right.
-    const bool turn_even = closed ? six_volume[root] < 0.0 : surplus[root] < 0;
-    if (odd == turn_even) continue;
-    std::swap(mesh.faces[f][1], mesh.faces[f][2]);
-    ++turned;
-  }
-  if (turned > 0 && turned == mesh.faces.size()) {
+  const bool closed = Inspect(result->mesh, false).closed;
+  const Orientation orientation = OrientFaces(&result->mesh, closed);
+  if (orientation.turned > 0 && orientation.turned == result->mesh.faces.size()) {
     result->actions.push_back("turned inside out");
   } else {
-    SayFaces(&result->actions, "turned", turned, "wrongly wound");
+    SayFaces(&result->actions, "turned", orientation.turned, "wrongly wound");
   }
+  const std::size_t united = closed ? UniteGroups(orientation, &result->mesh) : 0;
+  Say(&result->actions, "united", united, "overlapping", "piece", "pieces");
 }
 
 // One pass of flips. Vertices that took part are left alone afterwards, so that the table of edges

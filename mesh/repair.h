@@ -17,8 +17,10 @@ struct RepairResult {
   bool accepted() const { return refusal.empty(); }
 };
 
-// Merges duplicate vertices, drops degenerate and duplicate faces, makes the winding agree and
-// outward. Never invents surface: an open or self-intersecting mesh is refused with the reason.
+// Merges duplicate vertices, drops degenerate and duplicate faces and those that cancel between
+// parts, makes the winding agree and outward (inward around a void), unites pieces that overlap.
+// Never invents surface: an open or self-intersecting mesh is refused with the reason. The mesh is
+// to be in its file's own coordinates: what counts as rounding grows with them.
 RepairResult Repair(const TriangleMesh& mesh);
 
 }  // namespace antigrasp

@@ -1,11 +1,12 @@
-// CGAL's headers cost far more to compile than everything else here: they are seen by this file and
-// convex_hull.cpp alone.
+// CGAL's headers cost far more to compile than everything else here: they are seen by this file,
+// nesting.cpp, mesh_union.cpp and convex_hull.cpp alone.
 #include "antigrasp/mesh/self_intersection.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -89,6 +90,18 @@ bool SelfIntersects(const TriangleMesh& mesh) {
     return true;
   }
   return false;
+}
+
+std::set<std::pair<std::int32_t, std::int32_t>> MeetingPieces(const TriangleMesh& mesh,
+                                                              const Pieces& pieces) {
+  const FacePairTest test(mesh);
+  std::vector<Box> boxes = test.Boxes();
+  std::set<std::pair<std::int32_t, std::int32_t>> meeting;
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    const auto pair = std::minmax(pieces.of_face[a.info()], pieces.of_face[b.info()]);
+    if (!meeting.contains(pair) && test.Intersect(a.info(), b.info())) meeting.insert(pair);
+  });
+  return meeting;
 }
 
 }  // namespace antigrasp

@@ -67,7 +67,9 @@ Eigen::Vector3d CenterOfMass(const TriangleMesh& mesh) {
   }
   const double box_size = box.Extent().norm();
   if (std::abs(six_volume) > kFlatVolume * box_size * box_size * box_size) {
-    return origin + solid_moment / six_volume;
+    const Eigen::Vector3d center = solid_moment / six_volume;
+    // Where parts of a mesh are inside out, volumes of both signs put it anywhere.
+    if ((center.cwiseAbs().array() <= 0.5 * box.Extent().array()).all()) return origin + center;
   }
   return twice_area > 0.0 ? Eigen::Vector3d(origin + surface_moment / twice_area) : origin;
 }

@@ -31,7 +31,7 @@ double SurfaceArea(const TriangleMesh& mesh);
 // Signed volume by the divergence theorem: positive when a closed mesh is outward oriented.
 double Volume(const TriangleMesh& mesh);
 
-// Centre of mass of the closed solid at uniform density; of the surface when the volume is ~0.
+// Centre of mass of the solid; of the surface when the volume is ~0 or that is outside the box.
 Eigen::Vector3d CenterOfMass(const TriangleMesh& mesh);
 
 // v -> scale * v + translation for every vertex.

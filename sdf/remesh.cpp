@@ -30,7 +30,7 @@ RemeshStatus MeshStatus(const MeshReport& report) {
   if (!report.manifold) return RemeshStatus::kNonManifold;
   if (!report.orientable) return RemeshStatus::kNonOrientable;
   if (report.self_intersecting) return RemeshStatus::kSelfIntersecting;
-  if (report.components > 1) return RemeshStatus::kDisjoint;
+  if (report.components - report.voids > 1) return RemeshStatus::kDisjoint;
   return RemeshStatus::kOk;
 }
 

@@ -20,7 +20,7 @@ enum class RemeshStatus {
   kNonManifold,    // a vertex with more than one fan
   kNonOrientable,
   kSelfIntersecting,
-  kDisjoint,  // more than one component (a cavity counts)
+  kDisjoint,  // more than one body (a closed void is none)
 };
 inline constexpr int kNumRemeshStatuses = 9;
 std::string_view Name(RemeshStatus status);  // "ok", "non_finite", "empty", ...
