@@ -98,6 +98,20 @@ TEST(ImportMeshes, AMixtureIsSortedIntoAcceptedRepairedAndRefused) {
                              }));
 }
 
+TEST(ImportMeshes, AVoidIsOutsideAndNoSecondPiece) {
+  const TempFolder folder;
+  // A cube of 28 cells with a void of 10 in its middle.
+  WriteMesh(folder / "hollow.obj",
+            shapes::Joined(shapes::Box({28, 28, 28}), shapes::Inverted(shapes::Box({10, 10, 10}))));
+  const Imported result = Import({folder.path()}, 32, 1);
+  ASSERT_EQ(result.reports.size(), 1u);
+  EXPECT_EQ(result.reports[0].status, "accepted");
+  const SdfGrid& grid = result.set.grids[0];
+  EXPECT_NEAR(grid.values[grid.Index(16, 16, 16)], -4.5 / 32.0, 1e-6);
+  EXPECT_EQ(std::count_if(grid.values.begin(), grid.values.end(), [](float v) { return v > 0.0F; }),
+            28 * 28 * 28 - 10 * 10 * 10);
+}
+
 TEST(ImportMeshes, OneScaleForTheSetLeavesTwoCellsOnEverySide) {
   const TempFolder folder;
   // Off centre, and of sizes 7 : 2. The larger one becomes 28/32 of the unit cube wide.

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -139,6 +140,26 @@ TEST(PrintOptions, AreThoseOfTheHandbookUnderTheirOwnKeys) {
     value += 0.0625;
   }
   EXPECT_THROW(table.ApplyOverride("print.overhang_angle=91"), InputError);
+}
+
+TEST(PrintNotes, SayThatAVoidIsClosedIn) {
+  const TriangleMesh block = shapes::Box({4, 4, 10});
+  const auto void_at = [](double z) {
+    return shapes::Inverted(Transformed(shapes::Box({2, 2, 2}), 1.0, {0, 0, z}));
+  };
+  const auto says = [](const PrintCheck& check, const std::string& note) {
+    return std::find(check.notes.begin(), check.notes.end(), note) != check.notes.end();
+  };
+  EXPECT_EQ(CheckPrint(block, 50.0).voids, 0);
+  TriangleMesh hollow = shapes::Joined(block, void_at(2.0));
+  const PrintCheck one = CheckPrint(hollow, 50.0);
+  EXPECT_EQ(one.why_not_solid, "");
+  EXPECT_TRUE(one.watertight);
+  EXPECT_NEAR(*one.wall_mm, 5.0, 1e-4);  // one unit, between block and void
+  EXPECT_TRUE(says(one, "A void is closed in: powder, resin or support stays inside."));
+  hollow = shapes::Joined(hollow, void_at(-2.0));
+  EXPECT_TRUE(says(CheckPrint(hollow, 50.0),
+                   "2 voids are closed in: powder, resin or support stays inside."));
 }
 
 }  // namespace

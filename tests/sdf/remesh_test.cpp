@@ -70,11 +70,19 @@ TEST(Remesh, TwoBallsAreDisjoint) {
   EXPECT_EQ(result.report.components, 2);
 }
 
-TEST(Remesh, CavityIsDisjoint) {
-  const auto shell = Sampled(24, [](const Vector3d& p) {
-    return std::min(SphereDistance(p, 0.4), -SphereDistance(p, 0.2));
-  });
-  EXPECT_EQ(Remesh(shell).status, RemeshStatus::kDisjoint);
+TEST(Remesh, AClosedVoidIsNoSecondPieceAndABallInItIs) {
+  const auto shell = [](const Vector3d& p) {
+    return std::min(SphereDistance(p, 0.4), -SphereDistance(p, 0.25));
+  };
+  const RemeshResult hollow = Remesh(Sampled(24, shell));
+  EXPECT_EQ(hollow.status, RemeshStatus::kOk);
+  EXPECT_TRUE(hollow.report.IsSolid());
+  EXPECT_EQ(hollow.report.components, 2);
+  EXPECT_EQ(hollow.report.voids, 1);
+  const auto rattle =
+      Sampled(24, [&](const Vector3d& p) { return std::max(shell(p), SphereDistance(p, 0.12)); });
+  EXPECT_EQ(Remesh(rattle).status, RemeshStatus::kDisjoint);
+  EXPECT_EQ(Remesh(rattle).report.voids, 1);
 }
 
 TEST(Remesh, EarlierTestsWin) {
