@@ -106,6 +106,15 @@ Assignment Checked(const Option& option, const toml::node& node, const std::stri
               refuse();
             return [target, value] { *target = value; };
           },
+          [&](const Option::Enum& target) -> Assignment {
+            if (!node.is_string()) refuse();
+            const auto at =
+                std::find(option.choices.begin(), option.choices.end(), node.as_string()->get());
+            if (at == option.choices.end()) refuse();
+            return [target, place = static_cast<std::size_t>(at - option.choices.begin())] {
+              target.set(target.value, place);
+            };
+          },
       },
       option.target);
 }
@@ -202,7 +211,8 @@ void OptionTable::ApplyValue(const std::string& key, const std::string& text,
                              const std::string& origin) {
   const Option& option = Find(options_, key, origin);
   // A string may be given without the quotes TOML wants; the shell has eaten them.
-  const bool is_string = std::holds_alternative<std::string*>(option.target);
+  const bool is_string = std::holds_alternative<std::string*>(option.target) ||
+                         std::holds_alternative<Option::Enum>(option.target);
   toml::table table;
   try {
     table = toml::parse("v = " + (is_string && !text.starts_with('"') ? Quoted(text) : text));
@@ -242,19 +252,20 @@ std::string Accepted(const Option& option) {
     if (std::isinf(option.max)) return noun + " of at least " + FormatDouble(option.min);
     return noun + " in [" + FormatDouble(option.min) + ", " + FormatDouble(option.max) + "]";
   };
+  const auto one_of = [&]() {
+    std::string list = "one of ";
+    for (std::size_t i = 0; i < option.choices.size(); ++i)
+      list += (i ? ", " : "") + option.choices[i];
+    return list;
+  };
   return std::visit(
       Overloaded{
           [](bool*) -> std::string { return "true or false"; },
           [&](int*) { return range("a whole number"); },
           [](std::uint64_t*) -> std::string { return "a whole number of at least 0"; },
           [&](double*) { return range("a number"); },
-          [&](std::string*) -> std::string {
-            if (option.choices.empty()) return "text";
-            std::string list = "one of ";
-            for (std::size_t i = 0; i < option.choices.size(); ++i)
-              list += (i ? ", " : "") + option.choices[i];
-            return list;
-          },
+          [&](std::string*) { return option.choices.empty() ? "text" : one_of(); },
+          [&](const Option::Enum&) { return one_of(); },
       },
       option.target);
 }
@@ -271,6 +282,9 @@ std::string ValueText(const Option& option) {
                                                                                 : text;
                         },
                         [](std::string* value) { return Quoted(*value); },
+                        [&](const Option::Enum& target) {
+                          return Quoted(option.choices[target.get(target.value)]);
+                        },
                     },
                     option.target);
 }
