@@ -17,6 +17,7 @@
 #include "antigrasp/datasets/object_names.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/mesh/mesh_format.h"
 #include "antigrasp/mesh/repair.h"
 #include "antigrasp/sdf/mesh_to_sdf.h"
 
@@ -262,7 +263,7 @@ std::vector<ImportedMesh> ImportMeshes(const std::vector<fs::path>& inputs, cons
   const std::vector<Source> sources = FindSources(inputs);
   const std::string where = Joined(inputs);
   if (sources.empty()) {
-    throw InputError("no mesh file", where, "*.stl, *.obj, *.ply or *.off");
+    throw InputError("no mesh file", where, Alternatives(ReadableExtensions(), "*."));
   }
   const std::vector<std::string> names = NamesOf(sources, out);
 

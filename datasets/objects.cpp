@@ -10,6 +10,7 @@
 #include "antigrasp/datasets/mesh_folder.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/mesh/mesh_format.h"
 #include "antigrasp/mesh/repair.h"
 #include "antigrasp/sdf/remesh.h"
 
@@ -18,8 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExpected =
-    "a mesh (STL, OBJ, PLY, OFF), a folder of meshes or an antigrasp SDF file";
+std::string Expected() {
+  return "a mesh (" + Alternatives(ReadableExtensions(), ".") +
+         "), a folder of meshes or an antigrasp SDF file";
+}
 
 InputObject FromMesh(const TriangleMesh& mesh) {
   const RepairResult repaired = Repair(mesh);
@@ -74,7 +77,7 @@ std::vector<Found> FindIn(const std::string& input) {
                        }});
     }
   } else if (!fs::exists(path)) {
-    throw InputError("no such file or folder", input, kExpected);
+    throw InputError("no such file or folder", input, Expected());
   } else if (IsShapeSet(path)) {
     const auto set = std::make_shared<ShapeSetReader>(path);
     const fs::path folder = fs::path(path).replace_extension();
@@ -89,7 +92,7 @@ std::vector<Found> FindIn(const std::string& input) {
                      }});
   } else {
     ReadShapeSetInfo(path);  // says what keeps it from being an SDF file
-    throw InputError("unknown kind of file", input, kExpected);
+    throw InputError("unknown kind of file", input, Expected());
   }
   return found;
 }
@@ -111,7 +114,7 @@ ObjectSource::ObjectSource(const std::vector<std::string>& inputs) {
       sources_.push_back({"", input, std::move(found.file), std::move(found.load)});
     }
   }
-  if (sources_.empty()) throw InputError("no object", inputs.front(), kExpected);
+  if (sources_.empty()) throw InputError("no object", inputs.front(), Expected());
   std::vector<std::string> names = DistinctNames(origins);
   for (std::size_t i = 0; i < names.size(); ++i) sources_[i].name = std::move(names[i]);
 }
