@@ -15,6 +15,7 @@
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/render/contact_sheet.h"
 #include "antigrasp/train/elites.h"
+#include "antigrasp/train/sample_name.h"
 
 namespace antigrasp {
 namespace {
@@ -97,10 +98,11 @@ void WriteElites(const std::filesystem::path& path, const ScoredStage& scored,
   set.kind = "elites";
   set.seed = config.seed;
   set.truncation = LargestDistance(config.model);
-  set.provenance = "antigrasp train, episode " + std::to_string(episode) + ", " +
-                   (config.cem.select == "random" ? "random samples" : "least graspable samples");
+  set.provenance =
+      "antigrasp train, episode " + std::to_string(episode) + ", " +
+      (config.cem.select == EliteOrder::kRandom ? "random samples" : "least graspable samples");
   for (const std::int64_t i : elites) {
-    set.names.push_back("sample-" + std::to_string(i));
+    set.names.push_back(SampleName(i));
     set.grids.push_back(GridOf(scored.values[i], config.model));
   }
   WriteShapeSet(path, set);

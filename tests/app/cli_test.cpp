@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_reader.h"
@@ -33,15 +34,30 @@ int FilesIn(const fs::path& folder) {
   return static_cast<int>(std::distance(fs::directory_iterator(folder), {}));
 }
 
+// The first words below "Subcommands:".
+std::vector<std::string> CommandsIn(const std::string& help) {
+  std::istringstream lines(help.substr(std::min(help.size(), help.find("Subcommands:"))));
+  std::vector<std::string> commands;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("  ") || line[2] == ' ') continue;
+    commands.push_back(line.substr(2, line.find(' ', 2) - 2));
+  }
+  return commands;
+}
+
 TEST(Cli, HelpNamesEveryCommandAndEveryCommandHasHelp) {
   const Outcome help = Antigrasp("help");
   EXPECT_EQ(help.code, 0);
+  const std::vector<std::string> commands = CommandsIn(help.text);
   for (const char* command :
-       {"dataset", "train", "sample", "remesh", "evaluate", "quality", "export", "info"}) {
-    EXPECT_NE(help.text.find(command), std::string::npos) << command;
-    const Outcome own = Antigrasp(std::string("help ") + command);
+       {"dataset", "train", "sample", "remesh", "evaluate", "compare", "quality", "perturb",
+        "shape", "poses", "trial", "sheet", "figure", "export", "generator", "info"}) {
+    EXPECT_TRUE(std::find(commands.begin(), commands.end(), command) != commands.end()) << command;
+  }
+  for (const std::string& command : commands) {
+    const Outcome own = Antigrasp("help " + command);
     EXPECT_EQ(own.code, 0) << command;
-    EXPECT_NE(own.text.find("Usage"), std::string::npos) << own.text;
+    EXPECT_NE(own.text.find("Usage: antigrasp " + command + " "), std::string::npos) << own.text;
   }
   ExpectRefused("help fly", "no command fly");
   ExpectRefused("fly", "");

@@ -125,11 +125,11 @@ TEST(WriteElites, KeepsTheirNumbersTheirGridsAndHowTheyWereChosen) {
   EXPECT_EQ(set.seed, 5U);
   EXPECT_EQ(set.truncation, 0.1);
   EXPECT_EQ(set.provenance, "antigrasp train, episode 2, least graspable samples");
-  EXPECT_EQ(set.names, (std::vector<std::string>{"sample-1", "sample-3"}));
+  EXPECT_EQ(set.names, (std::vector<std::string>{"sample-000001", "sample-000003"}));
   const std::size_t node = set.grids[0].Index(1, 2, 3);
   EXPECT_NEAR(set.grids[0].values[node], 0.02F, 1e-7);  // 0.2 and 0.4 of the truncation
   EXPECT_NEAR(set.grids[1].values[node], 0.04F, 1e-7);
-  config.cem.select = "random";
+  config.cem.select = EliteOrder::kRandom;
   WriteElites(folder / "elites.h5", scored, {1, 3}, 2, config);
   EXPECT_EQ(ReadShapeSet(folder / "elites.h5").provenance,
             "antigrasp train, episode 2, random samples");
