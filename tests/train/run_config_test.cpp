@@ -18,7 +18,7 @@ TEST(RunConfig, ReadsItsOwnDump) {
   config.cem.keep = 7;
   config.prior.kind = "bottles";
   config.metric.friction = 1.0 / 3;
-  config.metric.collision = "jaws";
+  config.metric.collision = Collision::kJaws;
   config.metric.gripper.finger_width = 0.015;
   const std::string toml = ToToml(config);
   EXPECT_EQ(ToToml(FromToml(toml, "x")), toml);
