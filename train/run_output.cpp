@@ -143,8 +143,9 @@ void ExportLeastGraspable(const ScoredStage& scored, const RunConfig& config,
     WriteMesh(folder.Stl() / name, FitToPlate(mesh, config.stl_size_mm));
     const Graspability again =
         EvaluateGraspability(mesh, config.metric, fresh, static_cast<std::uint64_t>(i));
-    csv.Text(name).Count(i).Numbers(
-        {value(i), again.value, again.ci_low, again.ci_high, config.stl_size_mm});
+    csv.Text(name)
+        .Text(SampleName(i))
+        .Numbers({value(i), again.value, again.ci_low, again.ci_high, config.stl_size_mm});
     csv.EndRow();
   }
   WriteFileAtomic(folder.Stl() / "scores.csv", csv.text());
