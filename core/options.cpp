@@ -11,6 +11,7 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
+#include "antigrasp/core/nearest.h"
 
 namespace antigrasp {
 namespace {
@@ -35,35 +36,15 @@ std::string TomlText(const toml::node& node) {
   throw InputError(option.key + " = " + value, origin, Accepted(option));
 }
 
-// The edit distance of two short words, for "did you mean".
-std::size_t EditDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
 const Option& Find(const std::vector<Option>& options, const std::string& key,
                    const std::string& origin) {
-  const Option* nearest = nullptr;
-  std::size_t best = std::string::npos;
+  std::vector<std::string> keys;
   for (const Option& option : options) {
     if (option.key == key) return option;
-    const std::size_t distance = EditDistance(option.key, key);
-    if (distance < best) {
-      best = distance;
-      nearest = &option;
-    }
+    keys.push_back(option.key);
   }
   throw InputError("unknown key " + key, origin,
-                   nearest ? "a known key; the nearest is " + nearest->key : "no keys");
+                   keys.empty() ? "no keys" : "a known key; the nearest is " + Nearest(key, keys));
 }
 
 // Checks a parsed value against the option and returns what will store it.
