@@ -78,7 +78,7 @@ MeshFormat RequireWritableFormat(const std::filesystem::path& path) {
 
 bool IsMeshFile(const std::filesystem::path& path) { return FindReadableFormat(path).has_value(); }
 
-TriangleMesh ReadMesh(const std::filesystem::path& path) {
+TriangleMesh ReadMesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
   RequireFile(path, Expected(kReadableFormats));
   const MeshFormat format = RequireReadableFormat(path);
   std::error_code ignored;
@@ -87,7 +87,7 @@ TriangleMesh ReadMesh(const std::filesystem::path& path) {
   }
   const std::string bytes = ReadFile(path);
   if (bytes.empty()) throw InputError("empty file", path.string(), Expected(kReadableFormats));
-  return ToTriangleMesh(ReadSoup(format, bytes, path.string()), path.string());
+  return ToTriangleMesh(ReadSoup(format, bytes, path.string()), path.string(), notes);
 }
 
 }  // namespace antigrasp
