@@ -41,12 +41,12 @@ std::string FileOf(const std::string& name, const ExportFlags& flags) {
 // A usable object that is a printable solid, placed as it will be written; else why it is none.
 struct Placed {
   PrintedObject printed;
-  std::string refusal;
+  std::string note, refusal;
   TriangleMesh mesh;
 };
 
 Placed PlaceForPrint(InputObject object, const ExportFlags& flags, const PrintOptions& options) {
-  Placed placed{{object.name, {}}, "", {}};
+  Placed placed{{object.name, {}}, object.note, "", {}};
   if (!object.ok()) {
     placed.refusal = object.status;
     return placed;
@@ -81,6 +81,7 @@ void Export(const ExportFlags& flags, const PrintOptions& options) {
       objects.size(), flags.threads,
       [&](std::int64_t i) { return PlaceForPrint(objects.Load(i), flags, options); },
       [&](std::int64_t, Placed item) {
+        if (!item.note.empty()) spdlog::warn("{}: {}", item.printed.name, item.note);
         if (!item.refusal.empty()) {
           refusals.push_back(item.printed.name + ": " + item.refusal);
           return;

@@ -8,6 +8,7 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
+#include "antigrasp/app/object_notes.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_writer.h"
 #include "antigrasp/core/error.h"
@@ -49,6 +50,7 @@ std::vector<InputObject> LoadUsable(const TrialFlags& flags) {
   const ObjectSource source(flags.inputs);
   source.RequireNotRead({flags.out});
   std::vector<InputObject> objects = LoadObjects(source, flags.threads, console.Phase("reading"));
+  WarnOfNotes(objects);
   const std::string first = objects.front().status;
   for (const InputObject& object : objects) {
     if (!object.ok()) spdlog::warn("{}: left out: {}", object.name, object.status);

@@ -100,11 +100,13 @@ std::pair<Item, TriangleMesh> ReadItem(const fs::path& path) {
   Item item;
   item.report.path = path.string();
   try {
-    RepairResult repaired = Repair(ReadMesh(path));
+    std::vector<std::string> changes;
+    RepairResult repaired = Repair(ReadMesh(path, &changes));
+    changes.insert(changes.end(), repaired.actions.begin(), repaired.actions.end());
     if (repaired.accepted()) {
       item.usable = true;
-      item.report.status = repaired.actions.empty() ? "accepted" : "repaired";
-      item.report.detail = Sentence(repaired.actions);
+      item.report.status = changes.empty() ? "accepted" : "repaired";
+      item.report.detail = Sentence(changes);
       item.extent = Bounds(repaired.mesh).Extent().maxCoeff();
       return {item, std::move(repaired.mesh)};
     }

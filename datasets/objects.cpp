@@ -24,6 +24,10 @@ std::string Expected() {
          "), a folder of meshes or an antigrasp SDF file";
 }
 
+void AddNote(const std::string& note, InputObject* object) {
+  object->note += (object->note.empty() ? "" : "; ") + note;
+}
+
 InputObject FromMesh(const TriangleMesh& mesh) {
   const RepairResult repaired = Repair(mesh);
   InputObject object;
@@ -31,12 +35,15 @@ InputObject FromMesh(const TriangleMesh& mesh) {
   const MeshReport& report = repaired.report;
   const bool usable = report.finite && report.closed && report.oriented && report.volume > 0.0;
   object.status = usable ? "ok" : repaired.refusal;
-  for (const std::string& action : repaired.actions) {
-    object.note += (object.note.empty() ? "" : "; ") + action;
-  }
-  if (usable && !repaired.refusal.empty()) {
-    object.note += (object.note.empty() ? "" : "; ") + repaired.refusal;
-  }
+  for (const std::string& action : repaired.actions) AddNote(action, &object);
+  if (usable && !repaired.refusal.empty()) AddNote(repaired.refusal, &object);
+  return object;
+}
+
+InputObject FromFile(const fs::path& path) {
+  std::vector<std::string> read_otherwise;
+  InputObject object = FromMesh(ReadMesh(path, &read_otherwise));
+  for (const std::string& note : read_otherwise) AddNote(note, &object);
   return object;
 }
 
@@ -51,7 +58,7 @@ InputObject FromGrid(const SdfGrid& grid) {
 // An unreadable mesh in a folder is no reason to leave the others.
 InputObject FromFileInFolder(const fs::path& file) {
   try {
-    return FromMesh(ReadMesh(file));
+    return FromFile(file);
   } catch (const InputError& error) {
     InputObject object;
     object.status = "not readable";
@@ -88,7 +95,7 @@ std::vector<Found> FindIn(const std::string& input) {
     }
   } else if (IsMeshFile(path)) {
     found.push_back({{path.filename().string(), fs::absolute(path).parent_path()}, path, [path] {
-                       return FromMesh(ReadMesh(path));
+                       return FromFile(path);
                      }});
   } else {
     ReadShapeSetInfo(path);  // says what keeps it from being an SDF file
