@@ -59,9 +59,52 @@ TEST(Cli, HelpNamesEveryCommandAndEveryCommandHasHelp) {
     EXPECT_EQ(own.code, 0) << command;
     EXPECT_NE(own.text.find("Usage: antigrasp " + command + " "), std::string::npos) << own.text;
   }
-  ExpectRefused("help fly", "no command fly");
-  ExpectRefused("fly", "");
-  ExpectRefused("", "");
+  const Outcome bare = Antigrasp("");
+  EXPECT_EQ(bare.code, 0);
+  EXPECT_EQ(bare.text, help.text);
+}
+
+TEST(Cli, HelpFollowsCommandsOfCommands) {
+  for (const char* of : {"dataset", "perturb"}) {
+    const std::vector<std::string> commands = CommandsIn(Antigrasp(std::string("help ") + of).text);
+    EXPECT_GE(commands.size(), 2u) << of;
+    for (const std::string& command : commands) {
+      const std::string path = std::string(of) + " " + command;
+      const Outcome own = Antigrasp("help " + path);
+      EXPECT_EQ(own.code, 0) << path;
+      EXPECT_NE(own.text.find("Usage: antigrasp " + path + " "), std::string::npos) << own.text;
+      EXPECT_NE(own.text.find("--out"), std::string::npos) << own.text;
+    }
+  }
+  ExpectRefused("help fly", "no command fly (antigrasp)");
+  ExpectRefused("help dataset imprt",
+                "no command imprt (antigrasp dataset): expected a known command; the nearest is "
+                "import\n");
+  ExpectRefused("help info fly", "no command fly (antigrasp info): expected nothing behind it");
+}
+
+TEST(Cli, AnUnknownWordNamesTheNearestThatIsKnown) {
+  ExpectRefused("evalute a.stl",
+                "no command evalute (antigrasp): expected a known command; the nearest is "
+                "evaluate\n");
+  ExpectRefused("trian", "; the nearest is train\n");
+  ExpectRefused("evaluate --num-grasp 3 a.stl",
+                "no option --num-grasp (antigrasp evaluate): expected a known option; the nearest "
+                "is --num-grasps\n");
+  // An option that is missing because another's name was misspelt, a value behind "=", a flag.
+  ExpectRefused("export a.stl --otu=x", "no option --otu (antigrasp export)");
+  ExpectRefused("export a.stl --otu=x", "; the nearest is --out\n");
+  ExpectRefused("evaluate a.stl --no-adaptiv", "; the nearest is --no-adaptive\n");
+  ExpectRefused("perturb serach a.stl",
+                "no command serach (antigrasp perturb): expected a known command; the nearest is "
+                "search\n");
+  ExpectRefused("dataset import a.stl --ou x", "(antigrasp dataset import): expected a known");
+  ExpectRefused("--versoin",
+                "no option --versoin (antigrasp): expected a known option; the "
+                "nearest is --version\n");
+  // Not a word that could be one.
+  ExpectRefused("info a.stl b.stl", "b.stl");
+  ExpectRefused("dataset", "subcommand");
 }
 
 TEST(Cli, RefusesBadInputInOneLineAndWritesNothing) {
