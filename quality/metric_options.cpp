@@ -70,7 +70,11 @@ const auto& Named(const List& list, const std::string& name, const std::string& 
   for (const auto& item : list) {
     if (item.name == name) return item;
   }
-  throw InputError(what + " preset '" + name + "'", what, Alternatives(NamesOf(list)));
+  std::string expected;
+  for (const std::string& known : NamesOf(list)) {
+    expected += (expected.empty() ? "one of " : ", ") + known;
+  }
+  throw InputError(what + " preset '" + name + "'", what, expected);
 }
 
 }  // namespace
