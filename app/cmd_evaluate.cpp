@@ -90,8 +90,8 @@ void RequireAScore(const EvaluateFlags& flags, const Scores& scores) {
     if (!std::isnan(value)) return;
   }
   const ScoreRow& first = scores.rows.front();
-  throw InputError("no object scored; " + first.object + ": " + first.status,
-                   flags.inputs.front(), "a closed solid");
+  throw InputError("no object scored; " + first.object + ": " + first.status, flags.inputs.front(),
+                   "a closed solid");
 }
 
 // Object by object, each with its original's graspability where there are originals.
