@@ -6,11 +6,13 @@
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
+#include "antigrasp/app/flags.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_writer.h"
 #include "antigrasp/core/statistics.h"
 #include "antigrasp/datasets/import.h"
 #include "antigrasp/datasets/prior_set.h"
+#include "antigrasp/mesh/mesh_format.h"
 
 namespace antigrasp {
 namespace {
@@ -24,7 +26,6 @@ struct ImportFlags {
   std::vector<std::string> inputs;
   std::string out;
   std::string report;
-  std::string scale = "set";
   ImportOptions options;
 };
 
@@ -56,10 +57,9 @@ void PrintNodes(const std::vector<ImportedMesh>& reports, int resolution) {
               DiscretePercentile(nodes, 50.0));
 }
 
-void Import(ImportFlags flags) {
+void Import(const ImportFlags& flags) {
   { const AtomicFile probe(flags.out); }
   RequireApart({flags.out, flags.report});
-  flags.options.scale = flags.scale == "each" ? ImportScale::kEach : ImportScale::kSet;
   ConsoleObserver console;
   const std::vector<std::filesystem::path> inputs(flags.inputs.begin(), flags.inputs.end());
   const std::vector<ImportedMesh> reports =
@@ -79,6 +79,14 @@ void Import(ImportFlags flags) {
   PrintNodes(reports, flags.options.resolution);
 }
 
+void AddResolution(CLI::App* command, int* resolution) {
+  command
+      ->add_option("--resolution", *resolution,
+                   "nodes of a grid along a side; a run needs its model.resolution")
+      ->check(CLI::Range(16, 256))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void AddDatasetCommand(CLI::App* app) {
@@ -88,13 +96,14 @@ void AddDatasetCommand(CLI::App* app) {
 
   const auto make_flags = std::make_shared<MakeFlags>();
   CLI::App* make = dataset->add_subcommand("make", "Make a synthetic set of SDF grids");
-  make->add_option("KIND", make_flags->options.kind, "cylinders, prisms or bottles")
+  make->add_option("KIND", make_flags->options.kind, Alternatives(PriorSetKinds()))
       ->required()
       ->check(CLI::IsMember(PriorSetKinds()));
   make->add_option("--count", make_flags->options.count, "shapes to make")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   make->add_option("--seed", make_flags->options.seed, "random seed")->capture_default_str();
+  AddResolution(make, &make_flags->options.resolution);
   make->add_option("--threads", make_flags->options.threads, "threads; 0 = all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
@@ -102,17 +111,15 @@ void AddDatasetCommand(CLI::App* app) {
   make->callback([make_flags] { Make(*make_flags); });
 
   const auto import_flags = std::make_shared<ImportFlags>();
-  CLI::App* import =
-      dataset->add_subcommand("import", "Turn STL, OBJ, PLY or OFF meshes into SDF grids");
+  CLI::App* import = dataset->add_subcommand(
+      "import", "Turn meshes (" + Alternatives(ReadableExtensions(), ".") + ") into SDF grids");
   import->add_option("MESH", import_flags->inputs, "mesh files or folders")->required();
   import->add_option("--out", import_flags->out, "SDF file to write (HDF5)")->required();
   import->add_option("--report", import_flags->report, "CSV with one row per mesh");
-  import
-      ->add_option("--scale", import_flags->scale,
-                   "set: one factor for all, which leaves out what is far larger than the others; "
-                   "each: every object as large as the grid allows")
-      ->check(CLI::IsMember({"set", "each"}))
-      ->capture_default_str();
+  AddChoice(import, "--scale", &import_flags->options.scale,
+            "set: one factor for all, which leaves out what is far larger than the others; each: "
+            "every object as large as the grid allows");
+  AddResolution(import, &import_flags->options.resolution);
   import->add_option("--threads", import_flags->options.threads, "threads; 0 = all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -1,5 +1,3 @@
-#include <spdlog/spdlog.h>
-
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -10,6 +8,7 @@
 #include "antigrasp/app/flags.h"
 #include "antigrasp/app/scored_objects.h"
 #include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
 #include "antigrasp/core/ordered_stream.h"
 #include "antigrasp/core/statistics.h"
 #include "antigrasp/quality/grasp_table.h"
@@ -72,10 +71,27 @@ void PrintPairedDifference(const Scores& scores) {
   }
   const MeanInterval mean = MeanWithInterval(difference);
   const double baseline = MeanWithInterval(of_pairs).mean;
-  std::fprintf(
-      stderr, "paired difference %+.5f%s, %+.1f%s %% of the baseline's %.5f, %d pairs\n", mean.mean,
-      HalfWidth(" +-%.5f (95 %%)", mean.half_width).c_str(), 100.0 * mean.mean / baseline,
-      HalfWidth(" +-%.1f", 100.0 * mean.half_width / baseline).c_str(), baseline, mean.count);
+  if (mean.count == 0) {
+    std::fprintf(stderr, "no paired difference: no object and its baseline both have a score\n");
+    return;
+  }
+  std::fprintf(stderr, "paired difference %+.5f%s", mean.mean,
+               HalfWidth(" +-%.5f (95 %%)", mean.half_width).c_str());
+  if (baseline > 0.0) {
+    std::fprintf(stderr, ", %+.1f%s %% of the baseline's %.5f", 100.0 * mean.mean / baseline,
+                 HalfWidth(" +-%.1f", 100.0 * mean.half_width / baseline).c_str(), baseline);
+  }
+  std::fprintf(stderr, "%s, %d pairs\n", baseline > 0.0 ? "" : ", the baseline is 0", mean.count);
+}
+
+// InputError, before anything is written, when no object has a score.
+void RequireAScore(const EvaluateFlags& flags, const Scores& scores) {
+  for (const double value : scores.values) {
+    if (!std::isnan(value)) return;
+  }
+  const ScoreRow& first = scores.rows.front();
+  throw InputError("no object scored; " + first.object + ": " + first.status, flags.inputs.front(),
+                   "a closed solid");
 }
 
 // Object by object, each with its original's graspability where there are originals.
@@ -116,6 +132,8 @@ Scores ScoreAllOf(const ObjectSource& objects, const EvaluateFlags& flags,
         grasps_file->Append(grasps.TakeText());
       },
       console.Phase("scoring"));
+  for (const std::string& note : scores.notes) spdlog::warn("{}", note);
+  RequireAScore(flags, scores);
   if (grasps_file) grasps_file->Commit();
   return scores;
 }
@@ -129,7 +147,6 @@ void Evaluate(const EvaluateFlags& flags, const MetricFlags& metric_flags) {
   const ObjectSource objects(flags.inputs);
   objects.RequireNotRead({flags.out, MetricPath(flags), flags.grasps});
   const Scores scores = ScoreAllOf(objects, flags, metric_flags);
-  for (const std::string& note : scores.notes) spdlog::warn("{}", note);
   WriteScores(flags, metric, ScoresCsv(scores.rows));
   PrintSummary(scores);
   if (!flags.baseline.empty()) PrintPairedDifference(scores);

@@ -1,5 +1,6 @@
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <cstdio>
 #include <memory>
 
@@ -13,15 +14,22 @@
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/export/print_table.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/mesh/mesh_format.h"
 
 namespace antigrasp {
 namespace {
+
+enum class ExportPose { kAsIs, kPrint };
+constexpr auto ChoicesOf(ExportPose) {
+  return std::to_array<Choice<ExportPose>>(
+      {{ExportPose::kAsIs, "as-is"}, {ExportPose::kPrint, "print"}});
+}
 
 struct ExportFlags {
   std::vector<std::string> inputs;
   std::string out;
   std::string format = "stl";
-  std::string pose = "as-is";
+  ExportPose pose = ExportPose::kAsIs;
   double size_mm = 60.0;
   int threads = 0;
 };
@@ -33,12 +41,12 @@ std::string FileOf(const std::string& name, const ExportFlags& flags) {
 // A usable object that is a printable solid, placed as it will be written; else why it is none.
 struct Placed {
   PrintedObject printed;
-  std::string refusal;
+  std::string note, refusal;
   TriangleMesh mesh;
 };
 
 Placed PlaceForPrint(InputObject object, const ExportFlags& flags, const PrintOptions& options) {
-  Placed placed{{object.name, {}}, "", {}};
+  Placed placed{{object.name, {}}, object.note, "", {}};
   if (!object.ok()) {
     placed.refusal = object.status;
     return placed;
@@ -48,7 +56,7 @@ Placed PlaceForPrint(InputObject object, const ExportFlags& flags, const PrintOp
   placed.refusal = check.why_not_solid;
   if (!placed.refusal.empty()) return placed;
   const Eigen::Matrix3d pose =
-      flags.pose == "print" ? check.table_from_object : Eigen::Matrix3d::Identity();
+      flags.pose == ExportPose::kPrint ? check.table_from_object : Eigen::Matrix3d::Identity();
   placed.mesh = PlacedForPrint(object.mesh, check, pose);
   return placed;
 }
@@ -73,6 +81,7 @@ void Export(const ExportFlags& flags, const PrintOptions& options) {
       objects.size(), flags.threads,
       [&](std::int64_t i) { return PlaceForPrint(objects.Load(i), flags, options); },
       [&](std::int64_t, Placed item) {
+        if (!item.note.empty()) spdlog::warn("{}: {}", item.printed.name, item.note);
         if (!item.refusal.empty()) {
           refusals.push_back(item.printed.name + ": " + item.refusal);
           return;
@@ -98,19 +107,15 @@ void AddExportCommand(CLI::App* app) {
       app->add_subcommand("export", "Write printable solids in millimetres and check their print");
   command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
   command->add_option("--out", flags->out, "folder of the meshes and print.csv")->required();
-  command->add_option("--format", flags->format, "stl, obj, ply or off")
-      ->check(CLI::IsMember({"stl", "obj", "ply", "off"}))
+  command->add_option("--format", flags->format, Alternatives(WritableExtensions()))
+      ->check(CLI::IsMember(WritableExtensions()))
       ->capture_default_str();
   command->add_option("--size-mm", flags->size_mm, "largest extent in the object's own frame, mm")
       ->check(NumberIn(0.001, 1e5))
       ->capture_default_str();
-  command
-      ->add_option(
-          "--pose", flags->pose,
-          "as-is: the object's own axes, so that grasps and poses go with the file; print: "
-          "turned into the pose suggested for printing")
-      ->check(CLI::IsMember({"as-is", "print"}))
-      ->capture_default_str();
+  AddChoice(command, "--pose", &flags->pose,
+            "as-is: the object's own axes, so that grasps and poses go with the file; print: "
+            "turned into the pose suggested for printing");
   command->add_option("--threads", flags->threads, "threads; 0 = all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

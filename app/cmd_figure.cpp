@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -114,9 +115,15 @@ void AddFigure1(CLI::App* figure) {
   });
 }
 
+enum class Axis { kX, kY, kZ };
+constexpr auto ChoicesOf(Axis) {
+  return std::to_array<Choice<Axis>>({{Axis::kX, "x"}, {Axis::kY, "y"}, {Axis::kZ, "z"}});
+}
+
 void AddFigure2(CLI::App* figure) {
   struct Flags {
-    std::string input, axis = "z";
+    std::string input;
+    Axis axis = Axis::kZ;
     double position = 0.0;
     int resolution = 32;
   };
@@ -125,9 +132,8 @@ void AddFigure2(CLI::App* figure) {
       "2", "A mesh, the mesh remeshed from its signed distances, and a section of them");
   command->add_option("MESH", own->input, "mesh; of a folder or an SDF file the first object")
       ->required();
-  command->add_option("--axis", own->axis, "across which the section is taken: x, y or z")
-      ->check(CLI::IsMember({"x", "y", "z"}))
-      ->capture_default_str();
+  AddChoice(command, "--axis", &own->axis,
+            "across which the section is taken: " + Alternatives(ChoiceNames<Axis>()));
   command
       ->add_option("--position", own->position,
                    "of the section on that axis, in sides of the unit cube from its middle")
@@ -140,7 +146,7 @@ void AddFigure2(CLI::App* figure) {
   command->callback([own, common] {
     common->Check();
     SdfFigure figure = SdfFigureOf(own->input, own->resolution, common->options.threads);
-    figure.axis = own->axis[0] - 'x';
+    figure.axis = static_cast<int>(own->axis);
     figure.position = own->position;
     WriteSdfFigure(common->out, figure, common->options);
     Done(*common);

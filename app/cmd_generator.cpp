@@ -28,10 +28,10 @@ void Write(const fs::path& out, const Checkpoint& checkpoint, const GanTrainer& 
 }
 
 void CheckThatItFolds(const ModelOptions& model, const std::string& origin) {
-  if (model.batch_norm && model.block == "plain") return;
+  if (model.batch_norm && model.block == Block::kPlain) return;
   throw InputError("--fold-batch-norm: networks with model.batch_norm = " +
                        std::string(model.batch_norm ? "true" : "false") +
-                       ", model.block = " + model.block,
+                       ", model.block = " + ChoiceName(model.block),
                    origin, "batch normalisation and plain blocks");
 }
 

@@ -4,6 +4,7 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/info_flags.h"
 #include "antigrasp/app/network_commands.h"
+#include "antigrasp/core/file_kind.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/inspect.h"
 #include "antigrasp/mesh/mesh_file.h"
@@ -31,13 +32,15 @@ void DescribeShapeSet(const fs::path& path) {
 }
 
 void DescribeMesh(const fs::path& path) {
-  const TriangleMesh mesh = ReadMesh(path);
+  std::vector<std::string> notes;
+  const TriangleMesh mesh = ReadMesh(path, &notes);
   const MeshReport report = Inspect(mesh);
   const Eigen::Vector3d extent = Bounds(mesh).Extent();
   const std::string refusal = WhyNotSolid(report);
   const auto yes = [](bool value) { return value ? "yes" : "no"; };
   std::printf("%s: mesh, %zu vertices, %zu faces\n", path.c_str(), mesh.vertices.size(),
               mesh.faces.size());
+  for (const std::string& note : notes) std::printf("  note               %s\n", note.c_str());
   std::printf("  extent             %g x %g x %g\n", extent.x(), extent.y(), extent.z());
   std::printf("  watertight         %s\n  winding consistent %s\n  outward            %s\n",
               yes(report.closed), yes(report.oriented), yes(report.outward));
@@ -87,7 +90,7 @@ void DescribeScores(const InfoFlags& flags) {
 
 void Describe(const InfoFlags& flags) {
   const fs::path path(flags.path);
-  if (fs::is_regular_file(path) && IsShapeSet(path)) {
+  if (IsHdf5(path)) {
     flags.RefuseTable();
     DescribeShapeSet(path);
   } else if (fs::is_regular_file(path) && IsMeshFile(path)) {

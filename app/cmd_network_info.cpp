@@ -8,6 +8,7 @@
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/file_kind.h"
 #include "antigrasp/train/run_folder.h"
 #include "antigrasp/train/statistics.h"
 
@@ -71,6 +72,7 @@ void Describe(const InfoFlags& flags) {
   } else if (IsCheckpoint(path)) {
     DescribeCheckpoint(flags);
   } else {
+    if (IsZip(path)) ReadCheckpoint(path);  // says what keeps it from being one
     throw InputError("unknown kind of file", flags.path, kExpected);
   }
 }

@@ -8,6 +8,7 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
+#include "antigrasp/app/object_notes.h"
 #include "antigrasp/app/perturb_output.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
@@ -82,6 +83,7 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
   ConsoleObserver console;
   CheckPerturbFolder(flags.inputs, flags.out);
   auto inputs = LoadObjects(flags.inputs, flags.threads, console.Phase("reading"));
+  WarnOfNotes(inputs);
   const auto objects =
       PerturbAll(std::move(inputs), settings, flags.threads, console.Phase("perturbing"));
   const std::filesystem::path out(flags.out);

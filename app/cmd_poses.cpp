@@ -5,6 +5,7 @@
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
+#include "antigrasp/app/object_notes.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_writer.h"
 #include "antigrasp/core/error.h"
@@ -44,6 +45,7 @@ void Poses(const PosesFlags& flags) {
   source.RequireNotRead({flags.out});
   const std::vector<InputObject> objects =
       LoadObjects(source, flags.threads, console.Phase("reading"));
+  WarnOfNotes(objects);
   std::vector<std::vector<StablePose>> poses(objects.size());
   ParallelFor(
       std::ssize(objects), flags.threads,

@@ -10,6 +10,7 @@
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/mesh/mesh_format.h"
 
 namespace antigrasp {
 namespace {
@@ -53,8 +54,8 @@ void AddRemeshCommand(CLI::App* app) {
       app->add_subcommand("remesh", "Turn SDF grids into meshes, with a watertightness check");
   command->add_option("SDF", flags->input, "SDF file (HDF5)")->required();
   command->add_option("--out", flags->out, "folder for the meshes and remesh.csv")->required();
-  command->add_option("--format", flags->format, "stl, obj, ply or off")
-      ->check(CLI::IsMember({"stl", "obj", "ply", "off"}))
+  command->add_option("--format", flags->format, Alternatives(WritableExtensions()))
+      ->check(CLI::IsMember(WritableExtensions()))
       ->capture_default_str();
   command->add_option("--threads", flags->threads, "threads; 0 = all")
       ->check(CLI::Range(0, 1024))

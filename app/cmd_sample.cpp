@@ -12,6 +12,7 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/train/episode_loop.h"
+#include "antigrasp/train/sample_name.h"
 
 namespace antigrasp {
 namespace {
@@ -51,9 +52,7 @@ void Sample(const SampleFlags& flags) {
     const torch::Tensor values =
         trainer.Sample(flags.seed, first, std::min(kChunk, flags.count - first));
     for (std::int64_t i = 0; i < values.size(0); ++i) {
-      char name[32];
-      std::snprintf(name, sizeof name, "sample-%06d", first + static_cast<int>(i));
-      writer.Add(name, GridOf(values[i], config.model));
+      writer.Add(SampleName(first + i), GridOf(values[i], config.model));
     }
     progress(std::min(first + kChunk, flags.count), flags.count);
   }

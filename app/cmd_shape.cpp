@@ -58,7 +58,7 @@ void Shape(ShapeFlags flags, const OptionFlags& search) {
   Bind(&table, &flags.options);
   search.Apply(&table);
   const PolyhedronOptions& options = flags.options;
-  RequireMeshFormat(flags.out);
+  RequireWritableFormat(flags.out);
   if (!(options.phi <= kBestAntipodality)) {
     throw InputError(
         "phi = " + FormatDouble(options.phi), "--phi",
@@ -107,7 +107,9 @@ void AddShapeCommand(CLI::App* app) {
                    "edge of the cube that the plain solid is inscribed in, mm")
       ->check(NumberIn(0.001, 1e5))
       ->capture_default_str();
-  command->add_option("--out", flags->out, "mesh file (STL, OBJ, PLY, OFF), millimetres")
+  command
+      ->add_option("--out", flags->out,
+                   "mesh file (" + Alternatives(WritableExtensions(), ".") + "), millimetres")
       ->required();
   command->add_option("--seed", flags->options.seed, "random seed")->capture_default_str();
   command->add_option("--threads", flags->threads, "threads; 0 = all; the solid is the same")

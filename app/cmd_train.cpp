@@ -120,7 +120,8 @@ void AddTrainCommand(CLI::App* app) {
   command->add_option("--seed", flags->seed, "same as --set run.seed=");
   command->add_option("--threads", flags->threads, "same as --set run.threads=");
   command->add_option("--device", flags->device, "same as --set run.device=");
-  command->add_option("--mode", flags->mode, "same as --set cem.mode=: gan or latent");
+  command->add_option("--mode", flags->mode,
+                      "same as --set cem.mode=: " + Alternatives(ChoiceNames<EpisodeMode>()));
   CLI::Option* from = command->add_option(
       "--from", flags->start, "same as --set run.start=, and takes model.* from these networks");
   command->add_flag("--fine-tune", flags->fine_tune,

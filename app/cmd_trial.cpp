@@ -8,6 +8,7 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
+#include "antigrasp/app/object_notes.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_writer.h"
 #include "antigrasp/core/error.h"
@@ -18,11 +19,13 @@
 namespace antigrasp {
 namespace {
 
+constexpr const char* kBoth = "both";
+
 struct TrialFlags {
   std::vector<std::string> inputs;
   std::string out;
   double friction_angle = 17.0;
-  std::string reading = "both";
+  std::string reading = kBoth;  // or a FrictionReading
   bool millimetres = false;
   std::uint64_t seed = 1;
   int threads = 0;
@@ -47,6 +50,7 @@ std::vector<InputObject> LoadUsable(const TrialFlags& flags) {
   const ObjectSource source(flags.inputs);
   source.RequireNotRead({flags.out});
   std::vector<InputObject> objects = LoadObjects(source, flags.threads, console.Phase("reading"));
+  WarnOfNotes(objects);
   const std::string first = objects.front().status;
   for (const InputObject& object : objects) {
     if (!object.ok()) spdlog::warn("{}: left out: {}", object.name, object.status);
@@ -66,12 +70,13 @@ std::vector<Readings> RunReadings(const TrialFlags& flags, const std::vector<Inp
   }
   ConsoleObserver console;
   std::vector<Readings> all;
-  for (const auto reading : {FrictionReading::kHalfAngle, FrictionReading::kFullCone}) {
-    if (flags.reading != "both" && flags.reading != Name(reading)) continue;
+  const auto chosen = FindChoice<FrictionReading>(flags.reading);
+  for (const auto [reading, name] : ChoicesOf(FrictionReading{})) {
+    if (chosen && chosen != reading) continue;
     metric.friction = FrictionCoefficient(flags.friction_angle, reading);
     all.push_back({reading, metric.friction,
                    RunTrials(meshes, metric, options, flags.seed, flags.threads,
-                             console.Phase("trials, " + std::string(Name(reading))))});
+                             console.Phase("trials, " + std::string(name)))});
   }
   return all;
 }
@@ -85,7 +90,7 @@ std::string TrialCsv(const std::vector<InputObject>& objects, const std::vector<
   for (std::size_t i = 0; i < objects.size(); ++i) {
     for (const Readings& readings : all) {
       const TrialResult& result = readings.results[i];
-      csv.Text(objects[i].name).Text(Name(readings.reading)).Number(readings.friction);
+      csv.Text(objects[i].name).Text(ChoiceName(readings.reading)).Number(readings.friction);
       csv.Count(result.poses).Count(result.grasps).Count(result.found).Count(result.holds_planned);
       csv.Number(result.confidence);
       for (const Share* share : {&result.force_closure, &result.held}) {
@@ -129,7 +134,7 @@ void PrintTable(const std::vector<InputObject>& objects, const std::vector<Readi
     for (const Readings& readings : all) {
       const TrialResult& result = readings.results[i];
       std::printf("%-*s  %-10s  %8.4f  %5.1f  %15.1f  %s  %s\n", width, objects[i].name.c_str(),
-                  std::string(Name(readings.reading)).c_str(), readings.friction,
+                  ChoiceName(readings.reading).c_str(), readings.friction,
                   100.0 * ShareOf(result.found, result.grasps),
                   100.0 * ShareOf(result.holds_planned, result.grasps),
                   ShareText(result.force_closure).c_str(), ShareText(result.held).c_str());
@@ -178,8 +183,10 @@ void AddTrialCommand(CLI::App* app) {
   command->add_option("--friction-angle", flags->friction_angle, "degrees")
       ->check(NumberIn(0.0, 80.0))
       ->capture_default_str();
-  command->add_option("--reading", flags->reading, "half-angle, full-cone or both")
-      ->check(CLI::IsMember({"half-angle", "full-cone", "both"}))
+  std::vector<std::string> readings = ChoiceNames<FrictionReading>();
+  readings.emplace_back(kBoth);
+  command->add_option("--reading", flags->reading, Alternatives(readings))
+      ->check(CLI::IsMember(readings))
       ->capture_default_str();
   command->add_flag("--mm", flags->millimetres,
                     "coordinates are millimetres and objects keep their size; else each is "

@@ -72,8 +72,9 @@ void OptionFlags::Apply(OptionTable* table) const {
 
 MetricFlags::MetricFlags(CLI::App* command)
     : command_(command),
-      preset_(AddName(command, "--preset", "default", "all constants: default, dexnet or egad")),
-      noise_(AddName(command, "--noise", "", "noise alone: default, dexnet or none")),
+      preset_(AddName(command, "--preset", "default",
+                      "all constants: " + Alternatives(MetricPresetNames()))),
+      noise_(AddName(command, "--noise", "", "noise alone: " + Alternatives(NoisePresetNames()))),
       options_(MetricOptionFlags(command)) {}
 
 bool MetricFlags::given() const {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "antigrasp/core/choice.h"
 #include "antigrasp/quality/metric_options.h"
 
 namespace antigrasp {
@@ -42,6 +43,16 @@ class MetricFlags {
 
 // A number in [low, high]; unlike CLI::Range it refuses nan.
 CLI::Validator NumberIn(double low, double high);
+
+// An enum as a flag, with the names of choice.h. The target must live until the command has run.
+template <Chosen E>
+void AddChoice(CLI::App* command, const std::string& flag, E* target, const std::string& help) {
+  command
+      ->add_option_function<std::string>(
+          flag, [target](const std::string& name) { *target = *FindChoice<E>(name); }, help)
+      ->check(CLI::IsMember(ChoiceNames<E>()))
+      ->default_str(ChoiceName(*target));
+}
 
 // "metric.num_grasps" -> "--num-grasps"; the gripper's keep their section: "gripper.palm_width" ->
 // "--gripper-palm-width".

@@ -41,10 +41,10 @@ PerturbRow RowOf(const PerturbedObject& item) {
     row.difference = s.graspability_after - s.graspability_before;
     row.normal_max_deg = s.normals.largest;
     row.normal_mean_deg = s.normals.mean;
-    row.hausdorff_pct = s.similarity.hausdorff;
-    row.chamfer_pct = s.similarity.chamfer;
-    row.volume_change_pct = s.similarity.volume_change;
-    row.center_of_mass_pct = s.similarity.center_of_mass;
+    row.hausdorff_pct = s.change.hausdorff;
+    row.chamfer_pct = s.change.chamfer;
+    row.volume_change_pct = s.change.volume_change;
+    row.center_of_mass_pct = s.change.center_of_mass;
   }
   const auto& refused = s.result.refused;
   row.iterations = count(s.result.iterations);

@@ -6,10 +6,12 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <cstdio>
-#include <filesystem>
+#include <string>
+#include <vector>
 
 #include "antigrasp/app/console.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/nearest.h"
 #include "antigrasp/core/version.h"
 
 namespace antigrasp {
@@ -22,21 +24,68 @@ int Fail(int code, const char* message) {
   return code;
 }
 
-void AddHelpCommand(CLI::App* app, std::string* topic) {
-  CLI::App* command = app->add_subcommand("help", "Show this, or the help of a command");
-  command->add_option("COMMAND", *topic, "command to explain");
-  command->callback([app, topic] {
-    const CLI::App* about = app;
-    if (!topic->empty()) {
-      const auto known = app->get_subcommands([&](CLI::App* c) { return c->get_name() == *topic; });
-      about = known.empty() ? nullptr : known.front();
+// "antigrasp dataset import".
+std::string FullName(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return (parent == nullptr ? "" : FullName(*parent) + " ") + command.get_name();
+}
+
+std::vector<std::string> CommandNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> OptionNames(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+[[noreturn]] void RefuseWord(const std::string& kind, const std::string& word, const CLI::App& in,
+                             const std::vector<std::string>& known) {
+  throw InputError("no " + kind + " " + word, FullName(in),
+                   known.empty() ? "nothing behind it"
+                                 : "a known " + kind + "; the nearest is " + Nearest(word, known));
+}
+
+void PrintHelp(const CLI::App& command) {
+  // Not help(): that hands over to the subcommand in use, which may be "help".
+  std::fputs(command.get_formatter()
+                 ->make_help(&command, FullName(command), CLI::AppFormatMode::Normal)
+                 .c_str(),
+             stdout);
+}
+
+// The help of the command that these words lead to.
+void PrintHelpOf(const CLI::App& app, const std::vector<std::string>& path) {
+  const CLI::App* about = &app;
+  for (const std::string& word : path) {
+    const auto known =
+        about->get_subcommands([&](const CLI::App* c) { return c->get_name() == word; });
+    if (known.empty()) RefuseWord("command", word, *about, CommandNames(*about));
+    about = known.front();
+  }
+  PrintHelp(*about);
+}
+
+// InputError for the first word that no command took, if there is one: a slip in a name, which is
+// also why something may be missing.
+void RefuseUnknownWord(const CLI::App& command) {
+  for (const std::string& word : command.remaining()) {
+    const bool is_option = word.size() > 1 && word.starts_with('-');
+    if (is_option) {
+      RefuseWord("option", word.substr(0, word.find('=')), command, OptionNames(command));
     }
-    if (about == nullptr) throw InputError("no command " + *topic, "help", "one of antigrasp help");
-    // Not help(): that hands over to the subcommand in use, which is this one.
-    const std::string name = topic->empty() ? "antigrasp" : "antigrasp " + *topic;
-    std::fputs(app->get_formatter()->make_help(about, name, CLI::AppFormatMode::Normal).c_str(),
-               stdout);
-  });
+    const std::vector<std::string> known = CommandNames(command);
+    if (!known.empty() && command.get_subcommands().empty()) {
+      RefuseWord("command", word, command, known);
+    }
+  }
+  for (const CLI::App* used : command.get_subcommands()) RefuseUnknownWord(*used);
 }
 
 int Parse(int argc, char** argv, const std::function<void(CLI::App*)>& add_commands) {
@@ -46,14 +95,23 @@ int Parse(int argc, char** argv, const std::function<void(CLI::App*)>& add_comma
       "antigrasp");
   app.set_version_flag("--version", "antigrasp " + ProgramVersion() + " (" + ProgramCommit() + ")");
   app.require_subcommand(1);
-  std::string topic;
   add_commands(&app);
-  AddHelpCommand(&app, &topic);
+  CLI::App* help = app.add_subcommand("help", "Show this, or the help of a command");
+  std::vector<std::string> path;
+  help->add_option("COMMAND", path, "command to explain, as: dataset import");
+  help->callback([&] { PrintHelpOf(app, path); });
+  if (argc == 1) {
+    PrintHelp(app);
+    return kOk;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
     return app.exit(success);  // --help, --version
   } catch (const CLI::ParseError& error) {
+    const bool by_a_word = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+                           dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    if (by_a_word) RefuseUnknownWord(app);
     return Fail(kBadInput, (std::string(error.what()) + "; see antigrasp help").c_str());
   }
   return kOk;

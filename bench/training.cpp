@@ -150,12 +150,12 @@ void CompareDevices() {
   for (const int width : {8, 16, 32, 64}) {
     std::vector<Contender> contenders;
     for (const auto& [name, device, precision, tries] :
-         {std::tuple("cpu", torch::kCPU, "float32", false),
-          std::tuple("cuda", torch::kCUDA, "float32", false),
-          std::tuple("cuda_tried", torch::kCUDA, "float32", true),
-          std::tuple("cuda_tried_bfloat16", torch::kCUDA, "bfloat16", true)}) {
+         {std::tuple("cpu", torch::kCPU, Precision::kFloat32, false),
+          std::tuple("cuda", torch::kCUDA, Precision::kFloat32, false),
+          std::tuple("cuda_tried", torch::kCUDA, Precision::kFloat32, true),
+          std::tuple("cuda_tried_bfloat16", torch::kCUDA, Precision::kBfloat16, true)}) {
       ModelOptions model = Model(width, 4);
-      model.pack_at = "features";
+      model.pack_at = PackAt::kFeatures;
       model.precision = precision;
       const std::shared_ptr<GanTrainer> trainer = MakeTrainer(model, kBatch, device);
       const torch::Tensor shapes = RandomGrids(64).to(device);

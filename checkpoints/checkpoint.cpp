@@ -7,6 +7,7 @@
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/file_kind.h"
 
 namespace antigrasp {
 namespace {
@@ -37,7 +38,8 @@ torch::serialize::InputArchive Open(const fs::path& path) {
   try {
     archive.load_from(path.string());
   } catch (const std::exception&) {
-    throw InputError("not a checkpoint, or a truncated one", path.string(), kExpected);
+    throw InputError(IsZip(path) ? "truncated or damaged checkpoint" : "not a checkpoint",
+                     path.string(), kExpected);
   }
   if (Read<std::string>(&archive, "format", path) != kFormat) {
     throw InputError("another kind of archive", path.string(), kExpected);

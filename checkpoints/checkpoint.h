@@ -16,7 +16,7 @@ struct Checkpoint {
 
   std::string config;      // the resolved configuration, TOML
   std::string statistics;  // finished stages, CSV (train/statistics.h)
-  torch::Tensor shapes;    // training set of the current episode, float16 [N, 1, 32, 32, 32]
+  torch::Tensor shapes;    // training set of the current episode, float16 [N, 1, r, r, r]
   torch::Tensor losses;    // of the current episode, float64 [rows, columns of losses.csv]
   bool finished = false;   // the last stage has been scored
 };

@@ -30,6 +30,12 @@ std::string FormatDuration(double seconds) {
   return buffer.data();
 }
 
+std::string NumberedName(std::string_view series, std::int64_t number) {
+  std::string digits = std::to_string(number);
+  digits.insert(0, digits.size() < 6 ? 6 - digits.size() : 0, '0');
+  return std::string(series) + "-" + digits;
+}
+
 std::string CsvField(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";

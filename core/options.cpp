@@ -11,6 +11,7 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
+#include "antigrasp/core/nearest.h"
 
 namespace antigrasp {
 namespace {
@@ -35,35 +36,15 @@ std::string TomlText(const toml::node& node) {
   throw InputError(option.key + " = " + value, origin, Accepted(option));
 }
 
-// The edit distance of two short words, for "did you mean".
-std::size_t EditDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
 const Option& Find(const std::vector<Option>& options, const std::string& key,
                    const std::string& origin) {
-  const Option* nearest = nullptr;
-  std::size_t best = std::string::npos;
+  std::vector<std::string> keys;
   for (const Option& option : options) {
     if (option.key == key) return option;
-    const std::size_t distance = EditDistance(option.key, key);
-    if (distance < best) {
-      best = distance;
-      nearest = &option;
-    }
+    keys.push_back(option.key);
   }
   throw InputError("unknown key " + key, origin,
-                   nearest ? "a known key; the nearest is " + nearest->key : "no keys");
+                   keys.empty() ? "no keys" : "a known key; the nearest is " + Nearest(key, keys));
 }
 
 // Checks a parsed value against the option and returns what will store it.
@@ -105,6 +86,15 @@ Assignment Checked(const Option& option, const toml::node& node, const std::stri
                                                      value) == option.choices.end())
               refuse();
             return [target, value] { *target = value; };
+          },
+          [&](const Option::Enum& target) -> Assignment {
+            if (!node.is_string()) refuse();
+            const auto at =
+                std::find(option.choices.begin(), option.choices.end(), node.as_string()->get());
+            if (at == option.choices.end()) refuse();
+            return [target, place = static_cast<std::size_t>(at - option.choices.begin())] {
+              target.set(target.value, place);
+            };
           },
       },
       option.target);
@@ -202,7 +192,8 @@ void OptionTable::ApplyValue(const std::string& key, const std::string& text,
                              const std::string& origin) {
   const Option& option = Find(options_, key, origin);
   // A string may be given without the quotes TOML wants; the shell has eaten them.
-  const bool is_string = std::holds_alternative<std::string*>(option.target);
+  const bool is_string = std::holds_alternative<std::string*>(option.target) ||
+                         std::holds_alternative<Option::Enum>(option.target);
   toml::table table;
   try {
     table = toml::parse("v = " + (is_string && !text.starts_with('"') ? Quoted(text) : text));
@@ -242,19 +233,20 @@ std::string Accepted(const Option& option) {
     if (std::isinf(option.max)) return noun + " of at least " + FormatDouble(option.min);
     return noun + " in [" + FormatDouble(option.min) + ", " + FormatDouble(option.max) + "]";
   };
+  const auto one_of = [&]() {
+    std::string list = "one of ";
+    for (std::size_t i = 0; i < option.choices.size(); ++i)
+      list += (i ? ", " : "") + option.choices[i];
+    return list;
+  };
   return std::visit(
       Overloaded{
           [](bool*) -> std::string { return "true or false"; },
           [&](int*) { return range("a whole number"); },
           [](std::uint64_t*) -> std::string { return "a whole number of at least 0"; },
           [&](double*) { return range("a number"); },
-          [&](std::string*) -> std::string {
-            if (option.choices.empty()) return "text";
-            std::string list = "one of ";
-            for (std::size_t i = 0; i < option.choices.size(); ++i)
-              list += (i ? ", " : "") + option.choices[i];
-            return list;
-          },
+          [&](std::string*) { return option.choices.empty() ? "text" : one_of(); },
+          [&](const Option::Enum&) { return one_of(); },
       },
       option.target);
 }
@@ -271,6 +263,9 @@ std::string ValueText(const Option& option) {
                                                                                 : text;
                         },
                         [](std::string* value) { return Quoted(*value); },
+                        [&](const Option::Enum& target) {
+                          return Quoted(option.choices[target.get(target.value)]);
+                        },
                     },
                     option.target);
 }

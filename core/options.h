@@ -7,18 +7,26 @@
 #include <variant>
 #include <vector>
 
+#include "antigrasp/core/choice.h"
+
 namespace antigrasp {
 
 // One knob: where its value lives, what it may be and what it means. A module lists the fields of
 // its options struct once, in Bind(OptionTable&, TheOptions&); the configuration file, --set,
 // the command-line flags, the saved resolved file and `antigrasp help` are all made from that list.
 struct Option {
-  using Target = std::variant<bool*, int*, std::uint64_t*, double*, std::string*>;
+  // An enum of any type, by the place of its value in ChoicesOf (choice.h).
+  struct Enum {
+    void* value;
+    std::size_t (*get)(const void* value);
+    void (*set)(void* value, std::size_t place);
+  };
+  using Target = std::variant<bool*, int*, std::uint64_t*, double*, std::string*, Enum>;
   std::string key;  // dotted: "metric.friction"
   Target target;
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  std::vector<std::string> choices = {};  // for strings; empty = any
+  std::vector<std::string> choices = {};  // for enums and strings; empty = any
   std::string help = {};                  // one line with the unit
 };
 
@@ -30,6 +38,8 @@ class OptionTable {
   void Add(std::string key, double* target, double min, double max, std::string help);
   void Add(std::string key, std::string* target, std::vector<std::string> choices,
            std::string help);
+  template <Chosen E>
+  void Add(std::string key, E* target, std::string help);
 
   const std::vector<Option>& options() const { return options_; }
 
@@ -56,5 +66,23 @@ class OptionTable {
 std::string Accepted(const Option& option);
 // The current value as TOML text.
 std::string ValueText(const Option& option);
+
+template <Chosen E>
+void OptionTable::Add(std::string key, E* target, std::string help) {
+  const auto get = [](const void* value) {
+    const auto choices = ChoicesOf(E{});
+    const auto at = std::find_if(choices.begin(), choices.end(), [&](const Choice<E>& choice) {
+      return choice.value == *static_cast<const E*>(value);
+    });
+    return static_cast<std::size_t>(at - choices.begin());
+  };
+  const auto set = [](void* value, std::size_t place) {
+    *static_cast<E*>(value) = ChoicesOf(E{})[place].value;
+  };
+  options_.push_back({.key = std::move(key),
+                      .target = Option::Enum{target, get, set},
+                      .choices = ChoiceNames<E>(),
+                      .help = std::move(help)});
+}
 
 }  // namespace antigrasp

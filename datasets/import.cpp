@@ -17,6 +17,7 @@
 #include "antigrasp/datasets/object_names.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/mesh/mesh_format.h"
 #include "antigrasp/mesh/repair.h"
 #include "antigrasp/sdf/mesh_to_sdf.h"
 
@@ -99,11 +100,13 @@ std::pair<Item, TriangleMesh> ReadItem(const fs::path& path) {
   Item item;
   item.report.path = path.string();
   try {
-    RepairResult repaired = Repair(ReadMesh(path));
+    std::vector<std::string> changes;
+    RepairResult repaired = Repair(ReadMesh(path, &changes));
+    changes.insert(changes.end(), repaired.actions.begin(), repaired.actions.end());
     if (repaired.accepted()) {
       item.usable = true;
-      item.report.status = repaired.actions.empty() ? "accepted" : "repaired";
-      item.report.detail = Sentence(repaired.actions);
+      item.report.status = changes.empty() ? "accepted" : "repaired";
+      item.report.detail = Sentence(changes);
       item.extent = Bounds(repaired.mesh).Extent().maxCoeff();
       return {item, std::move(repaired.mesh)};
     }
@@ -262,7 +265,7 @@ std::vector<ImportedMesh> ImportMeshes(const std::vector<fs::path>& inputs, cons
   const std::vector<Source> sources = FindSources(inputs);
   const std::string where = Joined(inputs);
   if (sources.empty()) {
-    throw InputError("no mesh file", where, "*.stl, *.obj, *.ply or *.off");
+    throw InputError("no mesh file", where, Alternatives(ReadableExtensions(), "*."));
   }
   const std::vector<std::string> names = NamesOf(sources, out);
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "antigrasp/core/choice.h"
 #include "antigrasp/core/parallel.h"
 
 namespace antigrasp {
@@ -11,6 +13,10 @@ namespace antigrasp {
 // One factor for the whole set (VI-C), which keeps the objects' sizes; or each object as large as
 // the cube allows.
 enum class ImportScale { kSet, kEach };
+constexpr auto ChoicesOf(ImportScale) {
+  return std::to_array<Choice<ImportScale>>(
+      {{ImportScale::kSet, "set"}, {ImportScale::kEach, "each"}});
+}
 
 struct ImportOptions {
   int resolution = 32;

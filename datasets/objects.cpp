@@ -10,6 +10,7 @@
 #include "antigrasp/datasets/mesh_folder.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/mesh/mesh_format.h"
 #include "antigrasp/mesh/repair.h"
 #include "antigrasp/sdf/remesh.h"
 
@@ -18,17 +19,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExpected =
-    "a mesh (STL, OBJ, PLY, OFF), a folder of meshes or an antigrasp SDF file";
+std::string Expected() {
+  return "a mesh (" + Alternatives(ReadableExtensions(), ".") +
+         "), a folder of meshes or an antigrasp SDF file";
+}
+
+void AddNote(const std::string& note, InputObject* object) {
+  object->note += (object->note.empty() ? "" : "; ") + note;
+}
 
 InputObject FromMesh(const TriangleMesh& mesh) {
   const RepairResult repaired = Repair(mesh);
   InputObject object;
   object.mesh = repaired.mesh;
   object.status = repaired.accepted() ? "ok" : repaired.refusal;
-  for (const std::string& action : repaired.actions) {
-    object.note += (object.note.empty() ? "" : "; ") + action;
-  }
+  for (const std::string& action : repaired.actions) AddNote(action, &object);
+  return object;
+}
+
+InputObject FromFile(const fs::path& path) {
+  std::vector<std::string> read_otherwise;
+  InputObject object = FromMesh(ReadMesh(path, &read_otherwise));
+  for (const std::string& note : read_otherwise) AddNote(note, &object);
   return object;
 }
 
@@ -43,7 +55,7 @@ InputObject FromGrid(const SdfGrid& grid) {
 // An unreadable mesh in a folder is no reason to leave the others.
 InputObject FromFileInFolder(const fs::path& file) {
   try {
-    return FromMesh(ReadMesh(file));
+    return FromFile(file);
   } catch (const InputError& error) {
     InputObject object;
     object.status = "not readable";
@@ -69,7 +81,7 @@ std::vector<Found> FindIn(const std::string& input) {
                        }});
     }
   } else if (!fs::exists(path)) {
-    throw InputError("no such file or folder", input, kExpected);
+    throw InputError("no such file or folder", input, Expected());
   } else if (IsShapeSet(path)) {
     const auto set = std::make_shared<ShapeSetReader>(path);
     const fs::path folder = fs::path(path).replace_extension();
@@ -80,11 +92,11 @@ std::vector<Found> FindIn(const std::string& input) {
     }
   } else if (IsMeshFile(path)) {
     found.push_back({{path.filename().string(), fs::absolute(path).parent_path()}, path, [path] {
-                       return FromMesh(ReadMesh(path));
+                       return FromFile(path);
                      }});
   } else {
     ReadShapeSetInfo(path);  // says what keeps it from being an SDF file
-    throw InputError("unknown kind of file", input, kExpected);
+    throw InputError("unknown kind of file", input, Expected());
   }
   return found;
 }
@@ -106,7 +118,7 @@ ObjectSource::ObjectSource(const std::vector<std::string>& inputs) {
       sources_.push_back({"", input, std::move(found.file), std::move(found.load)});
     }
   }
-  if (sources_.empty()) throw InputError("no object", inputs.front(), kExpected);
+  if (sources_.empty()) throw InputError("no object", inputs.front(), Expected());
   std::vector<std::string> names = DistinctNames(origins);
   for (std::size_t i = 0; i < names.size(); ++i) sources_[i].name = std::move(names[i]);
 }

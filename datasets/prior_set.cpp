@@ -10,6 +10,7 @@
 
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/format.h"
 #include "antigrasp/core/ordered_stream.h"
 #include "antigrasp/datasets/bottle.h"
 #include "antigrasp/datasets/grafted_solid.h"
@@ -167,12 +168,6 @@ SdfGrid MakeShape(const PriorSetOptions& options, std::int64_t index) {
   AG_CHECK(false, "no usable shape in " + std::to_string(kMostDraws) + " draws");
 }
 
-std::string ShapeName(const std::string& kind, std::int64_t index) {
-  std::string digits = std::to_string(index);
-  digits.insert(0, digits.size() < 6 ? 6 - digits.size() : 0, '0');
-  return kind + "-" + digits;
-}
-
 void CheckOptions(const PriorSetOptions& options) {
   KindOf(options.kind);
   if (options.count < 1) {
@@ -196,7 +191,7 @@ template <typename Take>  // take(name, grid)
 void StreamShapes(const PriorSetOptions& options, const Take& take, const ProgressFn& progress) {
   StreamInOrder(
       options.count, options.threads, [&](std::int64_t i) { return MakeShape(options, i); },
-      [&](std::int64_t i, SdfGrid grid) { take(ShapeName(options.kind, i), std::move(grid)); },
+      [&](std::int64_t i, SdfGrid grid) { take(NumberedName(options.kind, i), std::move(grid)); },
       progress);
 }
 

@@ -5,6 +5,8 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/file_kind.h"
+#include "antigrasp/datasets/hdf5_damage.h"
 #include "antigrasp/datasets/hdf5_file.h"
 
 namespace antigrasp {
@@ -23,7 +25,12 @@ class Reader {
   explicit Reader(const std::filesystem::path& path) : path_(path) {
     RequireFile(path, kWholeFile);
     file_ = Hdf5File::Open(path);
-    if (!file_) Fail("not an HDF5 file, or a damaged or truncated one", kWholeFile);
+    if (!file_) {
+      Fail(IsTruncatedHdf5(path) ? "truncated HDF5 file"
+           : IsHdf5(path)        ? "damaged HDF5 file"
+                                 : "not an HDF5 file",
+           kWholeFile);
+    }
     const auto format = file_->StringAttribute("format");
     if (!format) Fail("no attribute format", kWholeFile);
     if (*format != kFormat) Fail("format = \"" + *format + "\"", kWholeFile);

@@ -1,6 +1,7 @@
 #include "antigrasp/mesh/mesh_file.h"
 
 #include <algorithm>
+#include <span>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/check.h"
@@ -11,9 +12,38 @@
 namespace antigrasp {
 namespace {
 
-constexpr const char* kExpected = "a mesh file: .stl, .obj, .ply or .off";
 // Larger files overflow the 32-bit indices of TriangleMesh.
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{2} << 30;
+
+std::vector<std::string> NamesOf(std::span<const MeshFormat> formats) {
+  std::vector<std::string> names;
+  for (const MeshFormat format : formats) names.push_back(ChoiceName(format));
+  return names;
+}
+
+std::string Expected(std::span<const MeshFormat> formats) {
+  return "a mesh file: " + Alternatives(NamesOf(formats), ".");
+}
+
+std::optional<MeshFormat> Find(const std::filesystem::path& path,
+                               std::span<const MeshFormat> formats) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  for (const MeshFormat format : formats) {
+    if (extension == "." + ChoiceName(format)) return format;
+  }
+  return std::nullopt;
+}
+
+MeshFormat Require(const std::filesystem::path& path, std::span<const MeshFormat> formats) {
+  const auto format = Find(path, formats);
+  if (!format) {
+    throw InputError("extension '" + path.extension().string() + "'", path.string(),
+                     Expected(formats));
+  }
+  return *format;
+}
 
 PolygonSoup ReadSoup(MeshFormat format, const std::string& bytes, const std::string& path) {
   switch (format) {
@@ -31,37 +61,33 @@ PolygonSoup ReadSoup(MeshFormat format, const std::string& bytes, const std::str
 
 }  // namespace
 
-std::optional<MeshFormat> FindMeshFormat(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  if (extension == ".stl") return MeshFormat::kStl;
-  if (extension == ".obj") return MeshFormat::kObj;
-  if (extension == ".ply") return MeshFormat::kPly;
-  if (extension == ".off") return MeshFormat::kOff;
-  return std::nullopt;
+std::vector<std::string> ReadableExtensions() { return NamesOf(kReadableFormats); }
+std::vector<std::string> WritableExtensions() { return NamesOf(kWritableFormats); }
+
+std::optional<MeshFormat> FindReadableFormat(const std::filesystem::path& path) {
+  return Find(path, kReadableFormats);
 }
 
-MeshFormat RequireMeshFormat(const std::filesystem::path& path) {
-  const auto format = FindMeshFormat(path);
-  if (!format) {
-    throw InputError("extension '" + path.extension().string() + "'", path.string(), kExpected);
-  }
-  return *format;
+MeshFormat RequireReadableFormat(const std::filesystem::path& path) {
+  return Require(path, kReadableFormats);
 }
 
-bool IsMeshFile(const std::filesystem::path& path) { return FindMeshFormat(path).has_value(); }
+MeshFormat RequireWritableFormat(const std::filesystem::path& path) {
+  return Require(path, kWritableFormats);
+}
 
-TriangleMesh ReadMesh(const std::filesystem::path& path) {
-  RequireFile(path, kExpected);
-  const MeshFormat format = RequireMeshFormat(path);
+bool IsMeshFile(const std::filesystem::path& path) { return FindReadableFormat(path).has_value(); }
+
+TriangleMesh ReadMesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
+  RequireFile(path, Expected(kReadableFormats));
+  const MeshFormat format = RequireReadableFormat(path);
   std::error_code ignored;
   if (std::filesystem::file_size(path, ignored) > kLargestFile) {
     throw InputError("file larger than 2 GiB", path.string(), "a smaller mesh");
   }
   const std::string bytes = ReadFile(path);
-  if (bytes.empty()) throw InputError("empty file", path.string(), kExpected);
-  return ToTriangleMesh(ReadSoup(format, bytes, path.string()), path.string());
+  if (bytes.empty()) throw InputError("empty file", path.string(), Expected(kReadableFormats));
+  return ToTriangleMesh(ReadSoup(format, bytes, path.string()), path.string(), notes);
 }
 
 }  // namespace antigrasp

@@ -11,7 +11,8 @@ namespace antigrasp {
 // Reads STL (ascii or binary), OBJ, PLY or OFF by content and extension. Polygons are triangulated,
 // several groups joined, exactly equal positions merged; nothing else is repaired (see repair.h).
 // InputError when the file is missing, a directory, truncated, of another format or not finite.
-TriangleMesh ReadMesh(const std::filesystem::path& path);
+// `notes`: what was left out or read otherwise than the file says, a few words each.
+TriangleMesh ReadMesh(const std::filesystem::path& path, std::vector<std::string>* notes = nullptr);
 
 // Whether ReadMesh knows the extension (case does not matter).
 bool IsMeshFile(const std::filesystem::path& path);

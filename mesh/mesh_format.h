@@ -1,15 +1,36 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
+
+#include "antigrasp/core/choice.h"
 
 namespace antigrasp {
 
 enum class MeshFormat { kStl, kObj, kPly, kOff };
+constexpr auto ChoicesOf(MeshFormat) {  // extensions
+  return std::to_array<Choice<MeshFormat>>({{MeshFormat::kStl, "stl"},
+                                            {MeshFormat::kObj, "obj"},
+                                            {MeshFormat::kPly, "ply"},
+                                            {MeshFormat::kOff, "off"}});
+}
 
-// By extension, case does not matter.
-std::optional<MeshFormat> FindMeshFormat(const std::filesystem::path& path);
-// InputError when the extension is of no mesh format.
-MeshFormat RequireMeshFormat(const std::filesystem::path& path);
+// What ReadMesh and WriteMesh know; every help text, check and message is made from these lists.
+inline constexpr std::array kReadableFormats = {MeshFormat::kStl, MeshFormat::kObj,
+                                                MeshFormat::kPly, MeshFormat::kOff};
+inline constexpr std::array kWritableFormats = {MeshFormat::kStl, MeshFormat::kObj,
+                                                MeshFormat::kPly, MeshFormat::kOff};
+
+std::vector<std::string> ReadableExtensions();  // "stl", "obj", ...
+std::vector<std::string> WritableExtensions();
+
+// By extension, case does not matter; nullopt when it is of no readable format.
+std::optional<MeshFormat> FindReadableFormat(const std::filesystem::path& path);
+// InputError when the extension is of no such format.
+MeshFormat RequireReadableFormat(const std::filesystem::path& path);
+MeshFormat RequireWritableFormat(const std::filesystem::path& path);
 
 }  // namespace antigrasp

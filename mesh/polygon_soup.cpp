@@ -33,14 +33,19 @@ void CheckVertices(const PolygonSoup& soup, const std::string& path) {
   }
 }
 
+std::string CornersOf(std::size_t polygon, std::size_t count) {
+  return "face " + std::to_string(polygon + 1) + " has " + std::to_string(count) + " corners";
+}
+
+[[noreturn]] void RefuseCorners(std::size_t polygon, std::size_t count, const std::string& path) {
+  throw InputError(CornersOf(polygon, count), path, "3 to " + std::to_string(kMostCorners));
+}
+
 void CheckPolygon(const PolygonSoup& soup, std::size_t polygon, std::size_t begin,
                   const std::string& path) {
   const std::string name = "face " + std::to_string(polygon + 1);
   const std::size_t count = soup.ends[polygon] - begin;
-  if (count < 3 || count > kMostCorners) {
-    throw InputError(name + " has " + std::to_string(count) + " corners", path,
-                     "3 to " + std::to_string(kMostCorners));
-  }
+  if (count > kMostCorners) RefuseCorners(polygon, count, path);
   for (std::size_t i = begin; i < soup.ends[polygon]; ++i) {
     const std::int64_t corner = soup.corners[i];
     if (corner >= 0 && corner < static_cast<std::int64_t>(soup.vertices.size())) continue;
@@ -49,6 +54,21 @@ void CheckPolygon(const PolygonSoup& soup, std::size_t polygon, std::size_t begi
         "one of the " + std::to_string(soup.vertices.size()) + " vertices");
   }
 }
+
+// Points and lines among the faces: they have no area and close nothing.
+struct FacesLeftOut {
+  std::size_t count = 0, first = 0, corners = 0;  // `corners` of the first
+
+  void Add(std::size_t polygon, std::size_t its_corners) {
+    if (count++ > 0) return;
+    first = polygon;
+    corners = its_corners;
+  }
+  std::string Note() const {
+    return std::to_string(count) + (count == 1 ? " face" : " faces") +
+           " of fewer than 3 corners left out (" + CornersOf(first, corners) + ")";
+  }
+};
 
 // The polygon seen along its normal, as a shrinking ring of corners.
 class EarClipper {
@@ -148,7 +168,8 @@ std::vector<std::array<std::int32_t, 3>> TriangulatedPolygon(
   return triangles;
 }
 
-TriangleMesh ToTriangleMesh(const PolygonSoup& soup, const std::string& path) {
+TriangleMesh ToTriangleMesh(const PolygonSoup& soup, const std::string& path,
+                            std::vector<std::string>* notes) {
   CheckVertices(soup, path);
   TriangleMesh mesh;
   const std::vector<std::int32_t> first = FirstEqual(soup.vertices);
@@ -158,14 +179,24 @@ TriangleMesh ToTriangleMesh(const PolygonSoup& soup, const std::string& path) {
     merged[i] = is_first ? static_cast<std::int32_t>(mesh.vertices.size()) : merged[first[i]];
     if (is_first) mesh.vertices.push_back(soup.vertices[i]);
   }
+  FacesLeftOut left_out;
   std::vector<std::int32_t> polygon;
   std::size_t begin = 0;
   for (std::size_t p = 0; p < soup.ends.size(); ++p) {
     CheckPolygon(soup, p, begin, path);
     polygon.clear();
     for (; begin < soup.ends[p]; ++begin) polygon.push_back(merged[soup.corners[begin]]);
+    if (polygon.size() < 3) {
+      left_out.Add(p, polygon.size());
+      continue;
+    }
     const auto triangles = TriangulatedPolygon(mesh.vertices, polygon);
     mesh.faces.insert(mesh.faces.end(), triangles.begin(), triangles.end());
+  }
+  if (mesh.faces.empty()) RefuseCorners(left_out.first, left_out.corners, path);
+  if (notes != nullptr) {
+    *notes = soup.notes;
+    if (left_out.count > 0) notes->push_back(left_out.Note());
   }
   return mesh;
 }

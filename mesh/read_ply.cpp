@@ -8,9 +8,12 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/mesh/mesh_readers.h"
 #include "antigrasp/mesh/text_scanner.h"
+#include "antigrasp/mesh/triangle_strip.h"
 
 namespace antigrasp {
 namespace {
+
+constexpr const char* kStrips = "tristrips";
 
 enum class Scalar { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 
@@ -205,15 +208,18 @@ bool IsCornerList(const Property& property) {
   return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
+// Anything that is no index becomes `otherwise`, which the check of all indices refuses.
+std::int64_t IndexOf(double value, std::int64_t otherwise) {
+  const bool is_index = value >= 0.0 && value < 4294967296.0 && value == std::floor(value);
+  return is_index ? static_cast<std::int64_t>(value) : otherwise;
+}
+
 void ReadFaces(const Element& element, Values* values, PolygonSoup* soup) {
   for (std::int64_t i = 0; i < element.count; ++i) {
     for (const Property& property : element.properties) {
       if (IsCornerList(property)) {
-        ReadList(property, values, [&](double index) {
-          // Anything that is no index becomes -1, which the check of all indices refuses.
-          const bool is_index = index >= 0.0 && index < 4294967296.0 && index == std::floor(index);
-          soup->corners.push_back(is_index ? static_cast<std::int64_t>(index) : -1);
-        });
+        ReadList(property, values,
+                 [&](double index) { soup->corners.push_back(IndexOf(index, -1)); });
       } else {
         Skip(property, values);
       }
@@ -222,20 +228,37 @@ void ReadFaces(const Element& element, Values* values, PolygonSoup* soup) {
   }
 }
 
-void RequireLayout(const Header& header, const std::string& path) {
-  const auto find = [&](const char* name) {
-    return std::find_if(header.elements.begin(), header.elements.end(),
-                        [&](const Element& e) { return e.name == name; });
-  };
-  const auto vertex = find("vertex"), face = find("face");
-  bool complete = vertex != header.elements.end() && face != header.elements.end();
-  for (const char* axis : {"x", "y", "z"}) {
-    complete = complete && std::any_of(vertex->properties.begin(), vertex->properties.end(),
-                                       [&](const Property& p) { return p.name == axis; });
+void ReadStrips(const Element& element, Values* values, PolygonSoup* soup) {
+  for (std::int64_t i = 0; i < element.count; ++i) {
+    for (const Property& property : element.properties) {
+      if (IsCornerList(property)) {
+        std::vector<std::int64_t> corners;
+        ReadList(property, values, [&](double index) {
+          corners.push_back(index == kStripRestart ? kStripRestart
+                                                   : IndexOf(index, kStripRestart - 1));
+        });
+        AppendStrips(corners, soup);
+      } else {
+        Skip(property, values);
+      }
+    }
   }
-  if (!complete || !std::any_of(face->properties.begin(), face->properties.end(), IsCornerList)) {
+}
+
+void RequireLayout(const Header& header, const std::string& path) {
+  const auto has = [&](const char* element, const auto& is_wanted) {
+    return std::any_of(header.elements.begin(), header.elements.end(), [&](const Element& e) {
+      return e.name == element && std::any_of(e.properties.begin(), e.properties.end(), is_wanted);
+    });
+  };
+  bool complete = has("face", IsCornerList) || has(kStrips, IsCornerList);
+  for (const char* axis : {"x", "y", "z"}) {
+    complete = complete && has("vertex", [&](const Property& p) { return p.name == axis; });
+  }
+  if (!complete) {
     throw InputError("PLY header without a mesh", path,
-                     "element vertex with x, y, z and element face with list vertex_indices");
+                     "element vertex with x, y, z and element face (or tristrips) with list "
+                     "vertex_indices");
   }
 }
 
@@ -258,6 +281,8 @@ PolygonSoup ReadPly(std::string_view bytes, const std::string& path) {
       ReadVertices(element, values.get(), &soup);
     } else if (element.name == "face") {
       ReadFaces(element, values.get(), &soup);
+    } else if (element.name == kStrips) {
+      ReadStrips(element, values.get(), &soup);
     } else {
       for (std::int64_t i = 0; i < element.count; ++i) {
         for (const Property& property : element.properties) Skip(property, values.get());

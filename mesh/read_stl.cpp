@@ -20,15 +20,15 @@ bool IsWord(std::string_view word, std::string_view lower_case) {
                     [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
 }
 
-std::size_t ClaimedBytes(std::string_view bytes) {
+std::size_t ClaimedFaces(std::string_view bytes) {
   std::uint32_t faces = 0;
   std::memcpy(&faces, bytes.data() + kHeaderBytes - sizeof(faces), sizeof(faces));
-  return kHeaderBytes + kFaceBytes * std::size_t{faces};
+  return faces;
 }
 
-PolygonSoup ReadBinary(std::string_view bytes) {
+PolygonSoup ReadBinary(std::string_view bytes, std::size_t faces) {
   PolygonSoup soup;
-  const std::size_t end = ClaimedBytes(bytes);
+  const std::size_t end = kHeaderBytes + kFaceBytes * faces;
   for (std::size_t at = kHeaderBytes; at < end; at += kFaceBytes) {
     float corners[9];
     std::memcpy(corners, bytes.data() + at + kNormalBytes, sizeof(corners));
@@ -39,6 +39,28 @@ PolygonSoup ReadBinary(std::string_view bytes) {
     soup.EndPolygon();
   }
   return soup;
+}
+
+// A file whose size is not that of its face count. Some writers never go back to put the count in,
+// some append data of their own; a file that could also hold other faces than it counts is refused.
+PolygonSoup ReadMiscounted(std::string_view bytes, const std::string& path) {
+  const std::size_t claimed = ClaimedFaces(bytes);
+  const std::size_t held = (bytes.size() - kHeaderBytes) / kFaceBytes;
+  const bool whole_faces = (bytes.size() - kHeaderBytes) % kFaceBytes == 0;
+  if (claimed == 0 && whole_faces) {
+    PolygonSoup soup = ReadBinary(bytes, held);
+    soup.notes.push_back("the file counts 0 faces: " + std::to_string(held) + " read by its size");
+    return soup;
+  }
+  if (held < claimed || whole_faces || claimed == 0) {
+    throw InputError(std::string(held < claimed ? "truncated binary STL, or a wrong count: "
+                                                : "binary STL with a wrong count: ") +
+                         std::to_string(held) + " faces by its " + std::to_string(bytes.size()) +
+                         " bytes, " + std::to_string(claimed) + " by its face count",
+                     path,
+                     std::to_string(kHeaderBytes + kFaceBytes * claimed) + " bytes for that count");
+  }
+  return ReadBinary(bytes, claimed);
 }
 
 std::string_view RequireWord(TextScanner* text, const char* expected) {
@@ -94,19 +116,20 @@ PolygonSoup ReadAscii(std::string_view bytes, const std::string& path) {
 }  // namespace
 
 PolygonSoup ReadStl(std::string_view bytes, const std::string& path) {
-  // Many binary files begin with "solid" too, so the exact size decides first.
+  // Many binary files begin with "solid" too, so the exact size decides first, and then a zero
+  // byte, which no text has.
   const bool has_header = bytes.size() >= kHeaderBytes;
-  if (has_header && bytes.size() == ClaimedBytes(bytes)) return ReadBinary(bytes);
-  std::string_view start = bytes;
-  if (IsWord(TakeWord(&start), "solid")) return ReadAscii(bytes, path);
-  if (!has_header || bytes.size() < ClaimedBytes(bytes)) {
-    throw InputError(
-        "neither ASCII STL nor complete binary STL: " + std::to_string(bytes.size()) + " bytes",
-        path,
-        has_header ? std::to_string(ClaimedBytes(bytes)) + " bytes by its face count"
-                   : "'solid' or a binary header of 84 bytes");
+  if (has_header && bytes.size() == kHeaderBytes + kFaceBytes * ClaimedFaces(bytes)) {
+    return ReadBinary(bytes, ClaimedFaces(bytes));
   }
-  return ReadBinary(bytes);  // some programs append data of their own
+  const bool text = bytes.substr(0, kHeaderBytes).find('\0') == std::string_view::npos;
+  std::string_view start = bytes;
+  if (text && IsWord(TakeWord(&start), "solid")) return ReadAscii(bytes, path);
+  if (!has_header) {
+    throw InputError("neither ASCII nor binary STL: " + std::to_string(bytes.size()) + " bytes",
+                     path, "'solid' or a binary header of 84 bytes");
+  }
+  return ReadMiscounted(bytes, path);
 }
 
 }  // namespace antigrasp

@@ -107,7 +107,7 @@ std::string Bytes(MeshFormat format, const TriangleMesh& mesh) {
 }  // namespace
 
 void WriteMesh(const std::filesystem::path& path, const TriangleMesh& mesh, double scale) {
-  const MeshFormat format = RequireMeshFormat(path);
+  const MeshFormat format = RequireWritableFormat(path);
   const TriangleMesh scaled = Transformed(mesh, scale, Eigen::Vector3d::Zero());
   const auto count = static_cast<std::int64_t>(mesh.vertices.size());
   for (const auto& v : scaled.vertices) AG_CHECK(v.allFinite(), "mesh to write is not finite");

@@ -28,18 +28,18 @@ DiscriminatorImpl::DiscriminatorImpl(const ModelOptions& options) : options_(opt
   const std::int64_t c = options_.width_d > 0 ? options_.width_d : options_.width;
   const std::int64_t inputs = PacksFeatures() ? 1 : options.pack;
   const std::int64_t sets = PacksFeatures() ? 2 : 1;
-  const std::vector<std::vector<std::int64_t>> shapes = {{c, inputs, 4, 4, 4},
-                                                         {2 * c, c, 4, 4, 4},
-                                                         {4 * c, 2 * c, 4, 4, 4},
-                                                         {8 * c, sets * 4 * c, 4, 4, 4},
-                                                         {1, 8 * c * 8}};
+  const int levels = HiddenLevels(options_);
+  std::vector<std::vector<std::int64_t>> shapes = {{c, inputs, 4, 4, 4}};
+  for (int i = 1; i < levels; ++i) shapes.push_back({c << i, c << (i - 1), 4, 4, 4});
+  shapes.push_back({c << levels, sets * (c << (levels - 1)), 4, 4, 4});
+  shapes.push_back({1, (c << levels) * 8});
   for (const std::vector<std::int64_t>& shape : shapes) {
     const std::string name = std::to_string(weights_.size() + 1);
     weights_.push_back(
         register_module("layer" + name, SpectralWeight(shape, options_.spectral_norm)));
     biases_.push_back(register_parameter("bias" + name, torch::zeros({shape[0]})));
   }
-  for (int i = 0; options_.block == "residual" && i < 3; ++i) {
+  for (int i = 0; options_.block == Block::kResidual && i < levels; ++i) {
     const std::int64_t channels = c << i;
     refine_.push_back(
         register_module("refine" + std::to_string(i + 1),
@@ -80,24 +80,27 @@ double DiscriminatorImpl::LargestSigma() {
 }
 
 torch::Tensor DiscriminatorImpl::forward(const torch::Tensor& sdf) {
-  return ForwardFolded(Fold(sdf));  // [N, 8, 17, 17, 17]
+  return ForwardFolded(Fold(sdf));
 }
 
 torch::Tensor DiscriminatorImpl::ForwardFolded(const torch::Tensor& grids) {
   const at::ScalarType compute = ConvolutionType(options_);
   const torch::Tensor folded = EmphasizeEdges(grids, options_.edge_gain);
   const std::int64_t inputs = PacksFeatures() ? 1 : options_.pack;
-  const auto packed = folded.view({-1, inputs, 8, 17, 17, 17})
+  const std::int64_t h = folded.size(2);
+  const auto packed = folded.view({-1, inputs, 8, h, h, h})
                           .permute({0, 3, 4, 5, 2, 1})
-                          .reshape({-1, 17, 17, 17, 8 * inputs})
+                          .reshape({-1, h, h, h, 8 * inputs})
                           .permute({0, 4, 1, 2, 3});  // a phase of all shapes, then the next
-  torch::Tensor x =
-      Refine(0, DownConv(packed, weights_[0](), biases_[0], compute));       // [N, c, 16, 16, 16]
-  x = Refine(1, DownConv(Fold(x), weights_[1](), biases_[1], compute));      // [N, 2c, 8, 8, 8]
-  x = Refine(2, DownConv(Fold(x), weights_[2](), biases_[2], compute));      // [N, 4c, 4, 4, 4]
-  if (PacksFeatures()) x = WithDeviation(x, options_.pack);                  // [N, 8c, 4, 4, 4]
-  x = LeakyRelu(DownConv(Fold(x), weights_[3](), biases_[3], compute));      // [N, 8c, 2, 2, 2]
-  return torch::linear(x.flatten(1), weights_[4](), biases_[4]).squeeze(1);  // [N]
+  const auto levels = static_cast<std::size_t>(HiddenLevels(options_));
+  const auto down = [&](std::size_t i, const torch::Tensor& cells) {
+    return DownConv(cells, weights_[i](), biases_[i], compute);
+  };
+  torch::Tensor x = Refine(0, down(0, packed));  // [N, c, r / 2, r / 2, r / 2]
+  for (std::size_t i = 1; i < levels; ++i) x = Refine(i, down(i, Fold(x)));  // to 4^3
+  if (PacksFeatures()) x = WithDeviation(x, options_.pack);                  // twice the channels
+  x = LeakyRelu(down(levels, Fold(x)));                                      // 2^3
+  return torch::linear(x.flatten(1), weights_[levels + 1](), biases_[levels + 1]).squeeze(1);
 }
 
 }  // namespace antigrasp

@@ -11,17 +11,17 @@
 
 namespace antigrasp {
 
-// D : [-1, 1]^{32x32x32} -> R (paper V-A). sdf [pack N, 1, 32, 32, 32] -> score [N],
-// or [pack N] when the pack meets in the features. The generator
-// mirrored: four convolutions (kernel 4, stride 2) with LeakyReLU 0.2 and a linear head, every
-// weight spectrally normalised, no batch norm. A forward in training mode makes one power
-// iteration per layer.
+// D : [-1, 1]^{r x r x r} -> R (paper V-A: r = 32). sdf [pack N, 1, r, r, r] -> score [N], or
+// [pack N] when the pack meets in the features. The generator mirrored: convolutions (kernel 4,
+// stride 2; four at 32^3) with LeakyReLU 0.2 down to 2^3 nodes and a linear head, every weight
+// spectrally normalised, no batch norm. A forward in training mode makes one power iteration per
+// layer.
 class DiscriminatorImpl : public torch::nn::Module {
  public:
   explicit DiscriminatorImpl(const ModelOptions& options);  // weights of a fixed stream
   torch::Tensor forward(const torch::Tensor& sdf);
 
-  // The same for grids folded as folding.h says, [pack N, 8, 17, 17, 17].
+  // The same for grids folded as folding.h says, [pack N, 8, h, h, h], h = r / 2 + 1.
   torch::Tensor ForwardFolded(const torch::Tensor& grids);
 
   void Initialize(RngStream* rng);  // fresh weights
@@ -31,12 +31,12 @@ class DiscriminatorImpl : public torch::nn::Module {
 
  private:
   torch::Tensor Refine(std::size_t level, const torch::Tensor& x);
-  bool PacksFeatures() const { return options_.pack > 1 && options_.pack_at == "features"; }
+  bool PacksFeatures() const { return options_.pack > 1 && options_.pack_at == PackAt::kFeatures; }
 
   ModelOptions options_;
-  std::vector<SpectralWeight> weights_;  // four convolutions, then the head
+  std::vector<SpectralWeight> weights_;  // convolutions, then the head
   std::vector<torch::Tensor> biases_;
-  std::vector<SpectralWeight> refine_;  // residual convolutions at 16^3, 8^3, 4^3, or none
+  std::vector<SpectralWeight> refine_;  // residual convolutions at (r / 2)^3 ... 4^3, or none
 };
 TORCH_MODULE(Discriminator);
 

@@ -6,32 +6,31 @@
 namespace antigrasp {
 namespace {
 
-constexpr int kCells = 17;          // cells along a side of the folded 32^3 grid
-constexpr int kSide = 2 * kCells;   // its nodes, ring included
-constexpr int kPadded = kSide + 2;  // with a frame of zeros around them
-constexpr int kVolume = kPadded * kPadded * kPadded;
-
 // Offset of the nodes of grid row (z, y) in its first cell, phases px = 0 and 1 side by side.
 int RowOffset(int z, int y, int h, int c) {
   const int phase = 4 * ((z + 1) % 2) + 2 * ((y + 1) % 2);
   return ((((z + 1) / 2) * h + (y + 1) / 2) * h * 8 + phase) * c;
 }
 
-// Calls visit(row of the framed grid at x = -1, its two nodes in the row's first cell) for all 34^2
+// Nodes along a side of the grid with its ring and a frame of zeros around that.
+int FramedSide(int h) { return 2 * h + 2; }
+
+// Calls visit(row of the framed grid at x = -1, its two nodes in the row's first cell) for all
 // rows; the next cell's are 8 values on.
 template <typename Cells, typename Framed, typename Visit>
-void ForFramedRows(Cells* cells, Framed* framed, const Visit& visit) {
-  for (int z = -1; z < kSide - 1; ++z) {
-    for (int y = -1; y < kSide - 1; ++y) {
-      visit(framed + ((z + 2) * kPadded + y + 2) * kPadded + 1, cells + RowOffset(z, y, kCells, 1));
+void ForFramedRows(int h, Cells* cells, Framed* framed, const Visit& visit) {
+  const int side = FramedSide(h);
+  for (int z = -1; z < 2 * h - 1; ++z) {
+    for (int y = -1; y < 2 * h - 1; ++y) {
+      visit(framed + ((z + 2) * side + y + 2) * side + 1, cells + RowOffset(z, y, h, 1));
     }
   }
 }
 
 // dst = [1 2 1]/4 of src along the axis of this stride, over the whole frame at once. The frame's
 // own values go wrong along that axis, and no later pass along another axis reads them.
-void BlurPass(const float* src, int stride, float* dst) {
-  for (int i = stride; i < kVolume - stride; ++i) {
+void BlurPass(const float* src, int volume, int stride, float* dst) {
+  for (int i = stride; i < volume - stride; ++i) {
     dst[i] = 0.5F * src[i] + 0.25F * (src[i - stride] + src[i + stride]);
   }
 }
@@ -67,34 +66,36 @@ void UnfoldCells(const float* cells, int s, int c, float* grid) {
   }
 }
 
-void BlurCells(const float* cells, float* result) {
-  std::vector<float> a(kVolume), b(kVolume);
-  ForFramedRows(cells, a.data(), [](float* row, const float* nodes) {
-    for (int i = 0; i < kCells; ++i) {
+void BlurCells(const float* cells, int s, float* result) {
+  const int h = s / 2 + 1, side = FramedSide(h), volume = side * side * side;
+  std::vector<float> a(static_cast<std::size_t>(volume)), b(a);
+  ForFramedRows(h, cells, a.data(), [h](float* row, const float* nodes) {
+    for (int i = 0; i < h; ++i) {
       row[2 * i] = nodes[8 * i];
       row[2 * i + 1] = nodes[8 * i + 1];
     }
   });
-  BlurPass(a.data(), 1, b.data());
-  BlurPass(b.data(), kPadded, a.data());
-  BlurPass(a.data(), kPadded * kPadded, b.data());
-  ForFramedRows(result, b.data(), [](const float* row, float* nodes) {
-    for (int i = 0; i < kCells; ++i) {
+  BlurPass(a.data(), volume, 1, b.data());
+  BlurPass(b.data(), volume, side, a.data());
+  BlurPass(a.data(), volume, side * side, b.data());
+  ForFramedRows(h, result, b.data(), [h](const float* row, float* nodes) {
+    for (int i = 0; i < h; ++i) {
       nodes[8 * i] = row[2 * i];
       nodes[8 * i + 1] = row[2 * i + 1];
     }
   });
 }
 
-void ClearRing(float* cells) {
-  const auto clear = [cells](int z, int y, int x, int phase) {
-    cells[((z * kCells + y) * kCells + x) * 8 + phase] = 0.0F;
+void ClearRing(int s, float* cells) {
+  const int h = s / 2 + 1;
+  const auto clear = [cells, h](int z, int y, int x, int phase) {
+    cells[((z * h + y) * h + x) * 8 + phase] = 0.0F;
   };
   for (int phase = 0; phase < 8; ++phase) {
-    // Phase 0 of the first cell is node -1, phase 1 of the last is node 32.
-    const auto ring = [phase](int bit) { return (phase & bit) != 0 ? kCells - 1 : 0; };
-    for (int i = 0; i < kCells; ++i) {
-      for (int j = 0; j < kCells; ++j) {
+    // Phase 0 of the first cell is node -1, phase 1 of the last is node s.
+    const auto ring = [phase, h](int bit) { return (phase & bit) != 0 ? h - 1 : 0; };
+    for (int i = 0; i < h; ++i) {
+      for (int j = 0; j < h; ++j) {
         clear(ring(4), i, j, phase);
         clear(i, ring(2), j, phase);
         clear(i, j, ring(1), phase);

@@ -11,9 +11,9 @@ namespace antigrasp {
 void FoldNodes(const float* grid, int s, int c, float* cells);    // nodes -1 and s are zero
 void UnfoldCells(const float* cells, int s, int c, float* grid);  // drops them
 
-// cells, s = 32, c = 1: smooths the 34^3 nodes, ring included, with [1 2 1]/4 along each axis,
-// values beyond being zero. A symmetric matrix. May work in place.
-void BlurCells(const float* cells, float* result);
-void ClearRing(float* cells);  // zeroes the ring, s = 32, c = 1
+// cells, c = 1: smooths the (s + 2)^3 nodes, ring included, with [1 2 1]/4 along each axis, values
+// beyond being zero. A symmetric matrix. May work in place.
+void BlurCells(const float* cells, int s, float* result);
+void ClearRing(int s, float* cells);  // zeroes the ring, c = 1
 
 }  // namespace antigrasp

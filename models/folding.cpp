@@ -77,15 +77,18 @@ at::Tensor BlurValues(const at::Tensor& folded) {
     const at::Tensor kernel = taps.view({3, 1, 1}) * taps.view({3, 1}) * taps;
     return NodesToCells(at::conv3d(CellsToNodes(folded), kernel.view({1, 1, 3, 3, 3}), {}, 1, 1));
   }
-  return MoveSamples(folded, folded.sizes(), BlurCells);
+  const auto s = static_cast<int>(2 * folded.size(2) - 2);
+  return MoveSamples(folded, folded.sizes(),
+                     [s](const float* from, float* to) { BlurCells(from, s, to); });
 }
 
 at::Tensor WithoutRing(const at::Tensor& folded) {
   if (!HasMoves(folded)) return NodesToCells(AddRing(DropRing(CellsToNodes(folded))));
   const std::int64_t size = folded.numel() / folded.size(0);
-  return MoveSamples(folded, folded.sizes(), [size](const float* from, float* to) {
+  const auto s = static_cast<int>(2 * folded.size(2) - 2);
+  return MoveSamples(folded, folded.sizes(), [size, s](const float* from, float* to) {
     std::copy(from, from + size, to);
-    ClearRing(to);
+    ClearRing(s, to);
   });
 }
 

@@ -30,11 +30,11 @@ torch::Tensor UpConv(const torch::Tensor& x, const torch::Tensor& weight,
                      at::ScalarType compute = at::kFloat);
 
 // Smooths with [1 2 1]/4 along each axis (zero beyond the ring) if `blur`, then zeroes the ring.
-// [N, 8, 17, 17, 17].
+// [N, 8, h, h, h].
 torch::Tensor BlurAndClearRing(const torch::Tensor& folded, bool blur);
 
 // x - gain * Laplacian(x) on the unfolded one-channel grid, nodes beyond it being equal to the
-// outermost; the ring stays zero. [N, 8, 17, 17, 17].
+// outermost; the ring stays zero. [N, 8, h, h, h].
 torch::Tensor EmphasizeEdges(const torch::Tensor& folded, double gain);
 
 }  // namespace antigrasp

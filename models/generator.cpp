@@ -12,7 +12,6 @@
 namespace antigrasp {
 namespace {
 
-constexpr int kUpLayers = 3;
 constexpr double kKernelNoise = 0.02;  // of the channel mix's deviation
 constexpr double kLastLayerSd = 0.3;   // at width 8
 constexpr double kRefineScale = 0.1;   // a residual branch begins small
@@ -31,25 +30,27 @@ torch::Tensor TrilinearKernel(at::IntArrayRef shape, double sd, RngStream* rng) 
 }  // namespace
 
 GeneratorImpl::GeneratorImpl(const ModelOptions& options) : options_(options) {
-  const std::int64_t c = options_.width;
+  const int levels = HiddenLevels(options_);
+  const std::int64_t c = options_.width, deepest = c << levels;
   project_ = register_module(
       "project",
-      torch::nn::Linear(torch::nn::LinearOptions(options_.latent, 8 * c * 8).bias(false)));
-  for (int i = 0; i < kUpLayers; ++i) {  // 8c -> 4c -> 2c -> c
-    up_weights_.push_back(register_parameter("up" + std::to_string(i + 1) + "_weight",
-                                             torch::zeros({8 * c >> i, 4 * c >> i, 4, 4, 4})));
+      torch::nn::Linear(torch::nn::LinearOptions(options_.latent, deepest * 8).bias(false)));
+  for (int i = 0; i < levels; ++i) {  // at 32^3: 8c -> 4c -> 2c -> c
+    up_weights_.push_back(
+        register_parameter("up" + std::to_string(i + 1) + "_weight",
+                           torch::zeros({deepest >> i, deepest >> (i + 1), 4, 4, 4})));
   }
-  for (int i = 0; i <= kUpLayers; ++i) {
+  for (int i = 0; i <= levels; ++i) {
     if (options_.batch_norm) {
       norms_.push_back(
-          register_module("norm" + std::to_string(i), torch::nn::BatchNorm3d(8 * c >> i)));
+          register_module("norm" + std::to_string(i), torch::nn::BatchNorm3d(deepest >> i)));
     } else {
       biases_.push_back(
-          register_parameter("bias" + std::to_string(i), torch::zeros({8 * c >> i, 1, 1, 1})));
+          register_parameter("bias" + std::to_string(i), torch::zeros({deepest >> i, 1, 1, 1})));
     }
   }
-  for (int i = 0; options_.block != "plain" && i < kUpLayers; ++i) {
-    const std::int64_t channels = 4 * c >> i;
+  for (int i = 0; options_.block != Block::kPlain && i < levels; ++i) {
+    const std::int64_t channels = deepest >> (i + 1);
     refine_weights_.push_back(register_parameter("refine" + std::to_string(i + 1) + "_weight",
                                                  torch::zeros({channels, channels, 3, 3, 3})));
     refine_norms_.push_back(register_module("refine" + std::to_string(i + 1) + "_norm",
@@ -99,7 +100,8 @@ void GeneratorImpl::RestartStatistics() {
 }
 
 void GeneratorImpl::TakeFolded(const GeneratorImpl& other) {
-  AG_CHECK(other.options_.batch_norm && !options_.batch_norm && options_.block == "plain" &&
+  AG_CHECK(other.options_.batch_norm && !options_.batch_norm && options_.block == Block::kPlain &&
+               options_.resolution == other.options_.resolution &&
                options_.width == other.options_.width && options_.latent == other.options_.latent,
            "batch norm is folded into networks of equal shape without it");
   torch::NoGradGuard no_grad;
@@ -130,17 +132,14 @@ torch::Tensor GeneratorImpl::Refine(std::size_t level, const torch::Tensor& x) {
 
 torch::Tensor GeneratorImpl::ForwardFolded(const torch::Tensor& z) {
   const at::ScalarType compute = ConvolutionType(options_);
-  torch::Tensor x = project_(z).view({-1, 8 * options_.width, 2, 2, 2});
-  x = Activate(0, x);                                                      // [N, 8c, 2, 2, 2]
-  x = Refine(0, Activate(1, Unfold(UpConv(x, up_weights_[0], compute))));  // [N, 4c, 4, 4, 4]
-  x = Refine(1, Activate(2, Unfold(UpConv(x, up_weights_[1], compute))));  // [N, 2c, 8, 8, 8]
-  x = Refine(2, Activate(3, Unfold(UpConv(x, up_weights_[2], compute))));  // [N, c, 16, 16, 16]
-  x = UpConv(x, last_weight_, compute) + last_bias_;                       // [N, 8, 17, 17, 17]
-  return BlurAndClearRing(x, options_.output_blur).tanh();                 // [N, 8, 17, 17, 17]
+  torch::Tensor x = Activate(0, project_(z).view({-1, up_weights_[0].size(0), 2, 2, 2}));
+  for (std::size_t i = 0; i < up_weights_.size(); ++i) {  // to [N, c, r / 2, r / 2, r / 2]
+    x = Refine(i, Activate(i + 1, Unfold(UpConv(x, up_weights_[i], compute))));
+  }
+  x = UpConv(x, last_weight_, compute) + last_bias_;  // [N, 8, h, h, h], h = r / 2 + 1
+  return BlurAndClearRing(x, options_.output_blur).tanh();
 }
 
-torch::Tensor GeneratorImpl::forward(const torch::Tensor& z) {
-  return Unfold(ForwardFolded(z));  // [N, 1, 32, 32, 32]
-}
+torch::Tensor GeneratorImpl::forward(const torch::Tensor& z) { return Unfold(ForwardFolded(z)); }
 
 }  // namespace antigrasp

@@ -10,16 +10,17 @@
 
 namespace antigrasp {
 
-// G : R^latent -> [-1, 1]^{32x32x32} (paper V-A). z [N, latent] -> sdf [N, 1, 32, 32, 32], network
-// values (positive inside; see ModelOptions::truncation). The DCGAN shape: a linear layer and four
-// transposed convolutions (kernel 4, stride 2), batch norm and ReLU between them.
+// G : R^latent -> [-1, 1]^{r x r x r} (paper V-A: r = 32). z [N, latent] -> sdf [N, 1, r, r, r],
+// network values (positive inside; see ModelOptions::truncation). The DCGAN shape: a linear layer
+// to 2^3 nodes and transposed convolutions (kernel 4, stride 2; four at 32^3), batch norm and ReLU
+// between them. Channels double with every halving: 8 c at 2^3 of 32^3, 16 c at 2^3 of 64^3.
 class GeneratorImpl : public torch::nn::Module {
  public:
   explicit GeneratorImpl(const ModelOptions& options);  // weights of a fixed stream
   torch::Tensor forward(const torch::Tensor& z);
 
   // The same grid folded as folding.h says: what the discriminator takes, and twice as fast.
-  torch::Tensor ForwardFolded(const torch::Tensor& z);  // [N, 8, 17, 17, 17]
+  torch::Tensor ForwardFolded(const torch::Tensor& z);  // [N, 8, h, h, h], h = r / 2 + 1
 
   // Fresh weights. Transposed kernels start as trilinear interpolation of a random channel mix and
   // the output far outside, so that the first shapes are smooth and closed.
@@ -46,7 +47,8 @@ class GeneratorImpl : public torch::nn::Module {
   std::vector<torch::Tensor> up_weights_;      // [in, out, 4, 4, 4]
   std::vector<torch::nn::BatchNorm3d> norms_;  // one per hidden layer, or instead of them
   std::vector<torch::Tensor> biases_;          // one bias per channel
-  std::vector<torch::Tensor> refine_weights_;  // residual convolutions at 4^3, 8^3, 16^3, or none
+  std::vector<torch::Tensor>
+      refine_weights_;  // residual convolutions at 4^3 ... (r / 2)^3, or none
   std::vector<torch::nn::BatchNorm3d> refine_norms_;
   torch::Tensor last_weight_, last_bias_;
 };

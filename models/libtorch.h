@@ -18,7 +18,7 @@ inline const std::decay_t<decltype(std::declval<const torch::nn::BatchNormOption
 
 // model.precision.
 inline at::ScalarType ConvolutionType(const ModelOptions& options) {
-  return options.precision == "bfloat16" ? at::kBFloat16 : at::kFloat;
+  return options.precision == Precision::kBfloat16 ? at::kBFloat16 : at::kFloat;
 }
 
 }  // namespace antigrasp

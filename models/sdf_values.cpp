@@ -17,17 +17,18 @@ double ValuePerDistance(const ModelOptions& options) {
 
 at::Tensor NetworkValues(const at::Tensor& distances, const ModelOptions& options) {
   const at::Tensor values = at::mul(distances, ValuePerDistance(options));
-  return options.squash == "tanh" ? at::tanh(values) : at::clamp(values, -1.0, 1.0);
+  return options.squash == Squash::kTanh ? at::tanh(values) : at::clamp(values, -1.0, 1.0);
 }
 
 at::Tensor Distances(const at::Tensor& network_values, const ModelOptions& options) {
-  if (options.squash == "clamp") return at::div(network_values, ValuePerDistance(options));
+  if (options.squash == Squash::kClamp) return at::div(network_values, ValuePerDistance(options));
   return at::atanh(network_values.clamp(-kLargestTanh, kLargestTanh))
       .div_(ValuePerDistance(options));
 }
 
 double LargestDistance(const ModelOptions& options) {
-  return (options.squash == "tanh" ? std::atanh(kLargestTanh) : 1.0) / ValuePerDistance(options);
+  return (options.squash == Squash::kTanh ? std::atanh(kLargestTanh) : 1.0) /
+         ValuePerDistance(options);
 }
 
 }  // namespace antigrasp

@@ -39,7 +39,7 @@ class RotationRun {
       : psi_(pairs.cone_angle),
         beta_(options.beta),
         mesh_(*mesh),
-        sampler_(*mesh, pairs, PairDrawOf(options.pairs)),
+        sampler_(*mesh, pairs, options.pairs),
         rng_(*rng),
         result_(*result) {}
 
@@ -88,7 +88,7 @@ void Bind(OptionTable* table, RotationOptions* options) {
              "iterations; 0 = iterations_per_face times the faces");
   table->Add("rotation.iterations_per_face", &o.iterations_per_face, 0.0, 1e6,
              "iterations per face of the decimated mesh; 0 = decimate only");
-  table->Add("rotation.pairs", &o.pairs, {"uniform", "area", "ray"},
+  table->Add("rotation.pairs", &o.pairs,
              "how pairs are drawn: uniform, area or ray (as grasps are)");
   table->Add("rotation.max_turn", &o.max_turn, 0.0, 180.0,
              "take back rotations that turn a face further than this, degrees");

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include "antigrasp/core/parallel.h"
 #include "antigrasp/core/rng.h"
+#include "antigrasp/perturb/pair_sampler.h"
 #include "antigrasp/perturb/perturbation.h"
 
 namespace antigrasp {
@@ -16,7 +15,7 @@ struct RotationOptions {
   int max_faces = 350;               // d; 0 = never decimate
   int iterations = 0;                // 0 = iterations_per_face times the number of faces
   double iterations_per_face = 1.0;  // after decimation
-  std::string pairs = "uniform";     // how pairs are drawn (pair_sampler.h)
+  PairDraw pairs = PairDraw::kUniform;
   // The guard takes back a rotation after which a face around it is turned further than this from
   // how the decimated mesh had it, degrees.
   double max_turn = 60.0;

@@ -62,9 +62,8 @@ NormalDeviation CompareNormals(const TriangleMesh& original, const TriangleMesh&
   return out;
 }
 
-MeshSimilarity CompareMeshes(const TriangleMesh& original, const TriangleMesh& changed,
-                             int samples) {
-  MeshSimilarity out;
+MeshChange CompareMeshes(const TriangleMesh& original, const TriangleMesh& changed, int samples) {
+  MeshChange out;
   const double percent = 100.0 / Bounds(original).Extent().norm();
   const Distances there = FromTo(original, changed, samples);
   const Distances back = FromTo(changed, original, samples);

@@ -14,7 +14,7 @@ NormalDeviation CompareNormals(const TriangleMesh& original, const TriangleMesh&
 
 // How far a changed mesh is from its original. Lengths in percent of the original's bounding-box
 // diagonal, so that they do not depend on its size.
-struct MeshSimilarity {
+struct MeshChange {
   // From samples of either surface to the other one, exact point-to-triangle distances: the largest
   // over area samples and vertices (a lower bound of the Hausdorff distance), and the mean over
   // area samples of both (the Chamfer distance).
@@ -26,7 +26,7 @@ struct MeshSimilarity {
 
 // Both closed with positive volume and finite; the faces may differ. `samples` per surface, from a
 // fixed random stream: equal meshes give 0. About 20 ms for 2,500 faces and 5,000 samples.
-MeshSimilarity CompareMeshes(const TriangleMesh& original, const TriangleMesh& changed,
-                             int samples = 5000);
+MeshChange CompareMeshes(const TriangleMesh& original, const TriangleMesh& changed,
+                         int samples = 5000);
 
 }  // namespace antigrasp

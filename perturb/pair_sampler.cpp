@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 
-#include "antigrasp/core/check.h"
 #include "antigrasp/perturb/cone.h"
 #include "antigrasp/quality/antipodal_sampler.h"
 
@@ -26,13 +25,6 @@ Vector3d DrawPoint(const FaceShape& shape, RngStream* rng) {
 }
 
 }  // namespace
-
-PairDraw PairDrawOf(const std::string& name) {
-  if (name == "uniform") return PairDraw::kUniform;
-  if (name == "area") return PairDraw::kArea;
-  AG_CHECK(name == "ray", "unknown way to draw pairs: " + name);
-  return PairDraw::kRay;
-}
 
 PairSampler::PairSampler(const EditableMesh& mesh, const PairLimits& limits, PairDraw draw)
     : mesh_(mesh), test_(limits), draw_(draw), areas_(mesh.mesh().faces.size()) {

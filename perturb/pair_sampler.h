@@ -1,9 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
-#include <string>
-
+#include "antigrasp/core/choice.h"
 #include "antigrasp/core/rng.h"
 #include "antigrasp/perturb/editable_mesh.h"
 #include "antigrasp/perturb/face_pairs.h"
@@ -18,7 +18,10 @@ enum class PairDraw {
   kRay       // as grasps are sampled: a point uniform over the area, a direction uniform in its
              // friction cone, the face through which that ray leaves the object
 };
-PairDraw PairDrawOf(const std::string& name);  // "uniform", "area", "ray"
+constexpr auto ChoicesOf(PairDraw) {
+  return std::to_array<Choice<PairDraw>>(
+      {{PairDraw::kUniform, "uniform"}, {PairDraw::kArea, "area"}, {PairDraw::kRay, "ray"}});
+}
 
 // Exact on the mesh as it is now. Rejection costs 1-3 us a pair while a few percent of all pairs
 // are antipodal, a ray 1-2 us.

@@ -54,16 +54,6 @@ bool Holds(const EditableMesh& mesh, std::int32_t face, std::int32_t vertex) {
   return std::find(corners.begin(), corners.end(), vertex) != corners.end();
 }
 
-enum class StepRule { kSmallest, kSmallestOrNone, kLargestAngle, kLargest };
-
-StepRule StepRuleOf(const std::string& name) {
-  if (name == "smallest") return StepRule::kSmallest;
-  if (name == "smallest_or_none") return StepRule::kSmallestOrNone;
-  if (name == "largest_angle") return StepRule::kLargestAngle;
-  AG_CHECK(name == "largest", "unknown step rule: " + name);
-  return StepRule::kLargest;
-}
-
 struct Candidate {
   Vector3d direction;
   Step step;
@@ -74,14 +64,12 @@ class RandomRun {
   RandomRun(const PairLimits& pairs, const RandomPerturbOptions& options, EditableMesh* mesh,
             RngStream* rng, PerturbResult* result)
       : options_(options),
-        rule_(StepRuleOf(options.step)),
-        from_start_(options.limit == "original"),
+        rule_(options.step),
+        from_start_(options.limit == NormalLimit::kOriginal),
         mesh_(*mesh),
-        sampler_(*mesh, pairs, PairDrawOf(options.pairs)),
+        sampler_(*mesh, pairs, options.pairs),
         rng_(*rng),
-        result_(*result) {
-    AG_CHECK(from_start_ || options.limit == "step", "unknown limit: " + options.limit);
-  }
+        result_(*result) {}
 
   // False when there is no pair left.
   bool Iterate() {
@@ -159,12 +147,10 @@ void Bind(OptionTable* table, RandomPerturbOptions* options) {
   RandomPerturbOptions& o = *options;
   table->Add("random.alpha", &o.alpha, 0.0, 89.0,
              "largest deviation of a face normal, degrees (paper: 10, 15, 20)");
-  table->Add("random.limit", &o.limit, {"original", "step"},
+  table->Add("random.limit", &o.limit,
              "deviation from the normals of the original, or from those before each step");
-  table->Add("random.step", &o.step, {"smallest", "smallest_or_none", "largest_angle", "largest"},
-             "which of the steps along the six directions is taken");
-  table->Add("random.pairs", &o.pairs, {"ray", "uniform", "area"},
-             "how pairs are drawn: ray (as grasps are), uniform or area");
+  table->Add("random.step", &o.step, "which of the steps along the six directions is taken");
+  table->Add("random.pairs", &o.pairs, "how pairs are drawn: ray (as grasps are), uniform or area");
   table->Add("random.directions", &o.directions, 1, 1000,
              "random directions tried in an iteration");
   table->Add("random.iterations", &o.iterations, 0, 1e9,
@@ -217,7 +203,7 @@ PerturbResult PerturbRandomly(const TriangleMesh& mesh, const PairLimits& pairs,
   if (!BeginPerturbation(mesh, &result)) return result;
   MoveLimits limits = GuardLimits(common);
   const double alpha = options.alpha * kRadians;
-  if (options.limit == "original") {
+  if (options.limit == NormalLimit::kOriginal) {
     limits.max_turn_from_start = alpha;
   } else {
     limits.max_turn_per_move = alpha;

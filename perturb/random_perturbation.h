@@ -1,31 +1,49 @@
 #pragma once
 
-#include <string>
+#include <array>
 
 #include "antigrasp/core/parallel.h"
 #include "antigrasp/core/rng.h"
 #include "antigrasp/perturb/cone.h"
+#include "antigrasp/perturb/pair_sampler.h"
 #include "antigrasp/perturb/perturbation.h"
 
 namespace antigrasp {
+
+// From which normals a face may deviate: the original's, or those before each step.
+enum class NormalLimit { kOriginal, kStep };
+constexpr auto ChoicesOf(NormalLimit) {
+  return std::to_array<Choice<NormalLimit>>(
+      {{NormalLimit::kOriginal, "original"}, {NormalLimit::kStep, "step"}});
+}
+
+// Which of the six steps is taken.
+enum class StepRule {
+  kSmallest,        // the shortest of those that raise the angle at all (delta in R+)
+  kSmallestOrNone,  // the same, but a direction without gain counts as delta = 0: no move
+  kLargestAngle,    // the one that ends with the largest angle
+  kLargest          // the longest
+};
+constexpr auto ChoicesOf(StepRule) {
+  return std::to_array<Choice<StepRule>>({{StepRule::kSmallest, "smallest"},
+                                          {StepRule::kSmallestOrNone, "smallest_or_none"},
+                                          {StepRule::kLargestAngle, "largest_angle"},
+                                          {StepRule::kLargest, "largest"}});
+}
 
 // Section IV-B. In each iteration: a pair of antipodal faces, one of its corners, six random
 // directions; along each the step that makes the pair's antipodality angle largest while no face
 // around the corner deviates by more than alpha; one of these steps is taken.
 struct RandomPerturbOptions {
-  double alpha = 10.0;             // degrees
-  std::string limit = "original";  // deviate from the original normals or from those of the step
-  std::string step = "smallest";   // which of the six steps is taken, see below
-  std::string pairs = "ray";       // how pairs are drawn (pair_sampler.h)
+  double alpha = 10.0;  // degrees
+  NormalLimit limit = NormalLimit::kOriginal;
+  StepRule step = StepRule::kSmallest;
+  PairDraw pairs = PairDraw::kRay;
   int directions = 6;
   int iterations = 0;  // 0 = iterations_per_vertex times the number of vertices
   double iterations_per_vertex = 8.0;
   double max_step = 2.0;  // longest step, mean edge lengths
 };
-// step: smallest          the shortest of those that raise the angle at all (delta in R+)
-//       smallest_or_none  the same, but a direction without gain counts as delta = 0: no move
-//       largest_angle     the one that ends with the largest angle
-//       largest           the longest
 void Bind(OptionTable* table, RandomPerturbOptions* options);  // keys "random.*"
 
 // Single thread. The result depends on the mesh, the options and the stream only. 10,000 iterations

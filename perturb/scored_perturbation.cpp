@@ -23,7 +23,7 @@ ScoredPerturbation PerturbAndScore(const TriangleMesh& mesh, const PerturbSettin
   ScoredPerturbation out;
   out.graspability_before = out.graspability_after = kNaN;
   out.normals = {kNaN, kNaN};
-  out.similarity = {kNaN, kNaN, kNaN, kNaN};
+  out.change = {kNaN, kNaN, kNaN, kNaN};
   out.result.failure = WhyNotPrintable(mesh);
   if (!out.result.failure.empty()) {
     out.result.failure = "before: " + out.result.failure;
@@ -44,7 +44,7 @@ ScoredPerturbation PerturbAndScore(const TriangleMesh& mesh, const PerturbSettin
   out.graspability_after =
       ValueOf(EvaluateGraspability(out.result.mesh, settings.metric, settings.seed, object));
   out.normals = CompareNormals(out.result.start, out.result.mesh);
-  out.similarity = CompareMeshes(out.before, out.result.mesh);
+  out.change = CompareMeshes(out.before, out.result.mesh);
   return out;
 }
 

@@ -31,9 +31,9 @@ struct ScoredPerturbation {
   PerturbResult result;
   double graspability_before, graspability_after;  // under the same random numbers
   std::int64_t pairs_before = -1, pairs_after = -1;
-  NormalDeviation normals;    // against result.start
-  MeshSimilarity similarity;  // against `before`
-  double seconds = 0.0;       // of the algorithm alone, wall time
+  NormalDeviation normals;  // against result.start
+  MeshChange change;        // against `before`
+  double seconds = 0.0;     // of the algorithm alone, wall time
 };
 
 // Both meshes are scored as object number `object`; the algorithm draws from the stream

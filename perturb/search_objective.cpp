@@ -136,7 +136,7 @@ std::vector<AttackGrasp> SampleAttackGrasps(const TriangleMesh& mesh, const Metr
                                  metric.jaw_opening);
   if (!(sampler.area() > 0.0)) return grasps;
   std::optional<GripperCollision> gripper;
-  if (metric.collision == "gripper") gripper.emplace(mesh, scene, metric.gripper);
+  if (metric.collision == Collision::kGripper) gripper.emplace(mesh, scene, metric.gripper);
   const auto wanted = static_cast<std::size_t>(options.grasps);
   for (std::uint64_t i = 0; i < kCandidatesPerGrasp * wanted && grasps.size() < wanted; ++i) {
     RngStream rng(seed, "search", step, i);

@@ -108,7 +108,7 @@ WrenchModel ReadModel(const Table& table, const ContactTableOptions& defaults) {
   model.cone_edges = static_cast<int>(edges);
   model.finger_radius = table.Number("finger_radius", 0.0, 1e9, defaults.finger_radius);
   model.torque_scale = table.Number("torque_scaling", 1e-12, 1e12, defaults.torque_scale);
-  model.torsion = TorsionNamed(defaults.torsion);
+  model.torsion = defaults.torsion;
   return model;
 }
 
@@ -199,7 +199,7 @@ void Bind(OptionTable* table, ContactTableOptions* options) {
   table->Add(
       "contact.torque_scale", &o.torque_scale, 1e-12, 1e12,
       "weight of torques against forces, 1 / unit of length, without a column torque_scaling");
-  table->Add("contact.torsion", &o.torsion, TorsionNames(),
+  table->Add("contact.torsion", &o.torsion,
              "torsion of a contact: none, dexnet (pi r^2 mu) or uniform_pressure (2/3 r mu)");
   Bind(table, &o.wrench);
 }

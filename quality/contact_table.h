@@ -13,11 +13,11 @@ namespace antigrasp {
 // What a table of contacts need not say row by row, and how its wrenches are resisted. Lengths in
 // the table's own unit.
 struct ContactTableOptions {
-  double friction = 0.5;           // without a column friction_coef
-  int cone_edges = 8;              // num_cone_faces
-  double finger_radius = 0.005;    // finger_radius
-  double torque_scale = 1000.0;    // torque_scaling
-  std::string torsion = "dexnet";  // none, dexnet, uniform_pressure
+  double friction = 0.5;         // without a column friction_coef
+  int cone_edges = 8;            // num_cone_faces
+  double finger_radius = 0.005;  // finger_radius
+  double torque_scale = 1000.0;  // torque_scaling
+  Torsion torsion = Torsion::kDexNet;
   WrenchResistanceOptions wrench;  // force_limit
 };
 

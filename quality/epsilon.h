@@ -3,9 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
-#include <string>
-#include <vector>
 
+#include "antigrasp/core/choice.h"
 #include "antigrasp/quality/contact.h"
 
 namespace antigrasp {
@@ -16,9 +15,11 @@ enum class Torsion {
   kDexNet,  // pi r^2 mu, what Dex-Net computes (not a torque per force: see docs/metric.md)
   kUniformPressure,  // 2/3 r mu: Coulomb friction under uniform pressure on a disc of radius r
 };
-// By their names: "none", "dexnet", "uniform_pressure".
-std::vector<std::string> TorsionNames();
-Torsion TorsionNamed(const std::string& name);  // one of TorsionNames()
+constexpr auto ChoicesOf(Torsion) {
+  return std::to_array<Choice<Torsion>>({{Torsion::kNone, "none"},
+                                         {Torsion::kDexNet, "dexnet"},
+                                         {Torsion::kUniformPressure, "uniform_pressure"}});
+}
 
 // The constants of one epsilon evaluation.
 struct WrenchModel {

@@ -7,15 +7,6 @@
 
 namespace antigrasp {
 
-std::vector<std::string> TorsionNames() { return {"none", "dexnet", "uniform_pressure"}; }
-
-Torsion TorsionNamed(const std::string& name) {
-  if (name == "dexnet") return Torsion::kDexNet;
-  if (name == "uniform_pressure") return Torsion::kUniformPressure;
-  AG_CHECK(name == "none", "unknown torsion " + name);
-  return Torsion::kNone;
-}
-
 double TorsionLimit(const WrenchModel& model) {
   switch (model.torsion) {
     case Torsion::kNone:

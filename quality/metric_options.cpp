@@ -1,38 +1,89 @@
 #include "antigrasp/quality/metric_options.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "antigrasp/core/error.h"
-#include "antigrasp/quality/epsilon.h"
 
 namespace antigrasp {
 
-void ApplyMetricPreset(const std::string& name, MetricOptions* options) {
+namespace {
+
+// What the configurations of Dex-Net and EGAD have in common.
+MetricOptions Peers() {
   MetricOptions preset;
-  if (name == "dexnet" || name == "egad") {
-    preset.friction = 0.5;
-    preset.cone_edges = 8;
-    preset.finger_radius = 0.005;  // neither configuration sets it: the code's own default
-    preset.torsion = "dexnet";
-    preset.object_min_extent = 0.040;
-    preset.jaw_opening = 0.05;  // gripper yumi_metal_spline
-    preset.percentile = 75.0;   // of the paper and of EGAD; Dex-Net ranks single grasps
-    preset.collision = "jaws";  // neither tests the gripper against the object before scoring
+  preset.friction = 0.5;
+  preset.cone_edges = 8;
+  preset.finger_radius = 0.005;  // neither configuration sets it: the code's own default
+  preset.torsion = Torsion::kDexNet;
+  preset.object_min_extent = 0.040;
+  preset.jaw_opening = 0.05;            // gripper yumi_metal_spline
+  preset.percentile = 75.0;             // of the paper and of EGAD; Dex-Net ranks single grasps
+  preset.collision = Collision::kJaws;  // neither tests the gripper against the object
+  return preset;
+}
+
+MetricOptions DexNet() {
+  MetricOptions preset = Peers();
+  preset.torque_scale = 1000.0;
+  preset.num_grasps = 25;
+  preset.num_draws = 25;
+  ApplyNoisePreset("dexnet", &preset);
+  return preset;
+}
+
+MetricOptions Egad() {
+  MetricOptions preset = Peers();
+  preset.torque_scale = 100.0;
+  preset.num_grasps = 100;
+  preset.num_draws = 1;
+  ApplyNoisePreset("none", &preset);
+  return preset;
+}
+
+// The one list of each kind of preset.
+struct Preset {
+  std::string_view name;
+  MetricOptions (*make)();
+};
+constexpr std::array<Preset, 3> kPresets = {
+    {{"default", [] { return MetricOptions(); }}, {"dexnet", DexNet}, {"egad", Egad}}};
+
+struct Noise {
+  std::string_view name;
+  double object_translation, object_rotation, grasp_translation, grasp_rotation, friction;
+};
+constexpr std::array<Noise, 3> kNoises = {{{"default", 0.0025, 0.01, 0.00125, 0.001, 0.1},
+                                           {"dexnet", 0.01, 0.01, 0.005, 0.001, 0.1},
+                                           {"none", 0.0, 0.0, 0.0, 0.0, 0.0}}};
+
+template <class List>
+std::vector<std::string> NamesOf(const List& list) {
+  std::vector<std::string> names;
+  for (const auto& item : list) names.emplace_back(item.name);
+  return names;
+}
+
+template <class List>
+const auto& Named(const List& list, const std::string& name, const std::string& what) {
+  for (const auto& item : list) {
+    if (item.name == name) return item;
   }
-  if (name == "dexnet") {
-    preset.torque_scale = 1000.0;
-    preset.num_grasps = 25;
-    preset.num_draws = 25;
-    ApplyNoisePreset("dexnet", &preset);
-  } else if (name == "egad") {
-    preset.torque_scale = 100.0;
-    preset.num_grasps = 100;
-    preset.num_draws = 1;
-    ApplyNoisePreset("none", &preset);
-  } else if (name != "default") {
-    throw InputError("metric preset '" + name + "'", "metric", "one of default, dexnet, egad");
+  std::string expected;
+  for (const std::string& known : NamesOf(list)) {
+    expected += (expected.empty() ? "one of " : ", ") + known;
   }
-  *options = preset;
+  throw InputError(what + " preset '" + name + "'", what, expected);
+}
+
+}  // namespace
+
+std::vector<std::string> MetricPresetNames() { return NamesOf(kPresets); }
+std::vector<std::string> NoisePresetNames() { return NamesOf(kNoises); }
+
+void ApplyMetricPreset(const std::string& name, MetricOptions* options) {
+  *options = Named(kPresets, name, "metric").make();
 }
 
 double EgadScore(double graspability) {
@@ -41,19 +92,7 @@ double EgadScore(double graspability) {
 }
 
 void ApplyNoisePreset(const std::string& name, MetricOptions* options) {
-  struct Noise {
-    double object_translation, object_rotation, grasp_translation, grasp_rotation, friction;
-  };
-  Noise noise;
-  if (name == "default") {
-    noise = {0.0025, 0.01, 0.00125, 0.001, 0.1};
-  } else if (name == "dexnet") {
-    noise = {0.01, 0.01, 0.005, 0.001, 0.1};
-  } else if (name == "none") {
-    noise = {0.0, 0.0, 0.0, 0.0, 0.0};
-  } else {
-    throw InputError("noise preset '" + name + "'", "metric noise", "one of default, dexnet, none");
-  }
+  const Noise& noise = Named(kNoises, name, "metric noise");
   options->object_translation_std = noise.object_translation;
   options->object_rotation_std = noise.object_rotation;
   options->grasp_translation_std = noise.grasp_translation;
@@ -68,7 +107,7 @@ void Bind(OptionTable* table, MetricOptions* options) {
   table->Add("metric.finger_radius", &o.finger_radius, 0.0, 1.0, "soft finger contact radius, m");
   table->Add("metric.torque_scale", &o.torque_scale, 1e-6, 1e9,
              "weight of torques against forces, 1/m");
-  table->Add("metric.torsion", &o.torsion, TorsionNames(),
+  table->Add("metric.torsion", &o.torsion,
              "torque that a contact carries about its normal, per force: none (two such fingers "
              "score 0), dexnet (pi r^2 mu) or uniform_pressure (2/3 r mu)");
   table->Add("metric.object_min_extent", &o.object_min_extent, 0.0, 100.0,
@@ -92,7 +131,7 @@ void Bind(OptionTable* table, MetricOptions* options) {
   table->Add("metric.grasp_rotation_std", &o.grasp_rotation_std, 0.0, 10.0,
              "grasp axis rotation noise per axis, rad");
   table->Add("metric.friction_std", &o.friction_std, 0.0, 10.0, "friction noise, clipped at 0");
-  table->Add("metric.collision", &o.collision, {"gripper", "jaws"},
+  table->Add("metric.collision", &o.collision,
              "what must be free of collision: the whole gripper, or the two jaw paths");
   Bind(table, &o.gripper);
 }

@@ -2,11 +2,24 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "antigrasp/core/choice.h"
 #include "antigrasp/core/options.h"
+#include "antigrasp/quality/epsilon.h"
 #include "antigrasp/quality/gripper.h"
 
 namespace antigrasp {
+
+// Which grasps count as reachable.
+enum class Collision {
+  kGripper,  // some straight way in of the gripper is free
+  kJaws,     // the paths of the two jaws are
+};
+constexpr auto ChoicesOf(Collision) {
+  return std::to_array<Choice<Collision>>(
+      {{Collision::kGripper, "gripper"}, {Collision::kJaws, "jaws"}});
+}
 
 // Every constant of the metric (docs/metric.md). Two graspabilities compare only when all are
 // equal, so all are written into every result file. Lengths in metres, angles in radians.
@@ -14,9 +27,9 @@ struct MetricOptions {
   // Contact and wrench model (Dex-Net 1.0).
   double friction = 0.5;
   int cone_edges = 8;
-  double finger_radius = 0.005;    // soft finger
-  double torque_scale = 1000.0;    // 1 / m
-  std::string torsion = "dexnet";  // none, dexnet, uniform_pressure (Torsion in epsilon.h)
+  double finger_radius = 0.005;  // soft finger
+  double torque_scale = 1000.0;  // 1 / m
+  Torsion torsion = Torsion::kDexNet;
   // Object and gripper.
   double object_min_extent = 0.040;  // smallest bounding-box extent after rescaling; 0 = as it is
   double jaw_opening = 0.05;         // widest grasp
@@ -33,15 +46,14 @@ struct MetricOptions {
   double grasp_translation_std = 0.00125;
   double grasp_rotation_std = 0.001;
   double friction_std = 0.1;
-  // Which grasps count as reachable: "gripper" = some straight way in of the gripper is free,
-  // "jaws" = the paths of the two jaws are.
-  std::string collision = "gripper";
+  Collision collision = Collision::kGripper;
   GripperModel gripper;
 };
 
 // Sets every constant to "default" (above), "dexnet" or "egad". Dex-Net: test/config.yaml of
 // BerkeleyAutomation/dex-net cccf933, 25 grasps and its own noise. EGAD (Morrison et al. 2020):
 // scripts/cfg of dougsm/egad, torque scale 100 / m and no noise, so one draw is all draws.
+// InputError, with nothing changed, for another name than those of MetricPresetNames().
 void ApplyMetricPreset(const std::string& name, MetricOptions* options);
 
 // EGAD's score of a graspability under its preset: 0 (epsilon up to 0.0005, hard to grasp) to 100
@@ -49,7 +61,11 @@ void ApplyMetricPreset(const std::string& name, MetricOptions* options);
 double EgadScore(double graspability);
 
 // Sets the noise to "default" (above), "dexnet" (0.01, 0.01, 0.005, 0.001, 0.1) or "none".
+// InputError as above.
 void ApplyNoisePreset(const std::string& name, MetricOptions* options);
+
+std::vector<std::string> MetricPresetNames();
+std::vector<std::string> NoisePresetNames();
 
 void Bind(OptionTable* table, MetricOptions* options);  // keys "metric.*", "gripper.*"
 

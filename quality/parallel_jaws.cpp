@@ -25,7 +25,7 @@ class Jaws final : public GraspModel {
  public:
   Jaws(const GraspObject& object, const MetricOptions& options, AntipodalSampler sampler)
       : object_(object), options_(options), sampler_(std::move(sampler)) {
-    if (options.collision == "gripper")
+    if (options.collision == Collision::kGripper)
       gripper_.emplace(object.mesh, object.scene, options.gripper);
   }
 

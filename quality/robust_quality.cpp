@@ -8,7 +8,7 @@ using Eigen::Vector3d;
 
 WrenchModel WrenchModelOf(const MetricOptions& options, double friction) {
   return {friction, options.cone_edges, options.finger_radius, options.torque_scale,
-          TorsionNamed(options.torsion)};
+          options.torsion};
 }
 
 double ExecutedQuality(const RayScene& scene, const Vector3d& com, const Grasp& grasp,

@@ -58,7 +58,7 @@ TableReach::TableReach(const TriangleMesh& mesh, const RayScene& scene, const Me
   impl->opening = metric.jaw_opening;
   impl->table = table;
   impl->boxes = GripperBoxes(metric.gripper, metric.jaw_opening, metric.gripper.approach_distance);
-  if (metric.collision == "gripper") impl->collision.emplace(mesh, scene, metric.gripper);
+  if (metric.collision == Collision::kGripper) impl->collision.emplace(mesh, scene, metric.gripper);
   impl_ = std::move(impl);
 }
 TableReach::~TableReach() = default;

@@ -23,7 +23,7 @@ struct TableOptions {
 //     clearance above the table, at the grasp or on its straight way in;
 //   - no box touches the object (GripperCollision).
 // metric.gripper.approach_angles ways in are tried, equally spaced about the grasp axis from the
-// steepest one. With metric.collision = "jaws" there are no boxes: the cone alone counts.
+// steepest one. With metric.collision = kJaws there are no boxes: the cone alone counts.
 class TableReach {
  public:
   // The mesh and its scene must outlive this. Metres.

@@ -162,10 +162,6 @@ Interval Wilson(double share, double count) {
 
 }  // namespace
 
-std::string_view Name(FrictionReading reading) {
-  return reading == FrictionReading::kHalfAngle ? "half-angle" : "full-cone";
-}
-
 double FrictionCoefficient(double angle_degrees, FrictionReading reading) {
   const double half = reading == FrictionReading::kHalfAngle ? angle_degrees : 0.5 * angle_degrees;
   return std::tan(half * std::numbers::pi / 180.0);

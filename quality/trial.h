@@ -19,7 +19,10 @@ namespace antigrasp {
 // the whole cone (mu = tan(angle / 2)). Faces under the antipodality angle phi can be pinched as
 // long as phi <= 2 angle, or phi <= angle.
 enum class FrictionReading { kHalfAngle, kFullCone };
-std::string_view Name(FrictionReading reading);  // "half-angle", "full-cone"
+constexpr auto ChoicesOf(FrictionReading) {
+  return std::to_array<Choice<FrictionReading>>(
+      {{FrictionReading::kHalfAngle, "half-angle"}, {FrictionReading::kFullCone, "full-cone"}});
+}
 double FrictionCoefficient(double angle_degrees, FrictionReading reading);
 
 struct TrialOptions {

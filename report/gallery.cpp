@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/report/report_settings.h"
 #include "antigrasp/train/elites.h"
+#include "antigrasp/train/sample_name.h"
 #include "antigrasp/train/stage_samples.h"
 
 namespace antigrasp {
@@ -25,17 +25,14 @@ std::vector<double> ValuesWithGaps(const std::vector<ScoreRow>& rows) {
 }
 
 // The samples kept for the next episode, by the names in elites.h5; nullopt without the file.
-std::optional<std::set<std::string>> ElitesOf(const RunFolder& run, int stage) {
+std::optional<std::set<std::int64_t>> ElitesOf(const RunFolder& run, int stage) {
   const fs::path path = run.Episode(stage) / "elites.h5";
   if (stage < 0 || !fs::exists(path)) return std::nullopt;
-  const auto names = ReadShapeNames(path);
-  return std::set<std::string>(names.begin(), names.end());
-}
-
-std::string SampleName(std::int64_t index) {
-  char name[32];
-  std::snprintf(name, sizeof name, "sample-%06d", static_cast<int>(index));
-  return name;
+  std::set<std::int64_t> elites;
+  for (const std::string& name : ReadShapeNames(path)) {
+    if (const auto index = SampleIndex(name)) elites.insert(*index);
+  }
+  return elites;
 }
 
 class Gallery {
@@ -67,7 +64,7 @@ class Gallery {
       const auto index = static_cast<std::size_t>(choice.indices[j]);
       ReportObject object = ObjectOf(made[j]);
       object.name = episode < 0 ? prior_names[index] : SampleName(choice.indices[j]);
-      if (elites) object.elite = elites->contains("sample-" + std::to_string(index));
+      if (elites) object.elite = elites->contains(choice.indices[j]);
       AddNumbers(choice, j, rows, &object);
       if (index < rows.size() && !SameScore(rows[index], object)) ++differ;
       report_->objects.push_back(std::move(object));

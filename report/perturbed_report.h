@@ -5,7 +5,7 @@
 
 namespace antigrasp {
 
-// The page of a folder that `perturb` wrote: every object after and before, its similarity numbers
+// The page of a folder that `perturb` wrote: every object after and before, how it changed
 // and, evaluated again with the folder's metric and seed, its grasps.
 Report PerturbedReport(const std::string& folder, const ReportSettings& settings,
                        RunObserver* observer);

@@ -10,6 +10,7 @@
 #include "antigrasp/core/csv_reader.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/train/run_output.h"
+#include "antigrasp/train/sample_name.h"
 #include "antigrasp/train/statistics.h"
 
 namespace antigrasp {
@@ -69,9 +70,10 @@ void FillFromScores(const std::vector<ScoreRow>& rows, ReportStage* stage) {
 std::vector<ScoreRow> ReadStageScores(const fs::path& path) {
   std::vector<ScoreRow> rows = ReadScores(path);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].object == std::to_string(i)) continue;
+    if (SampleIndex(rows[i].object) == static_cast<std::int64_t>(i)) continue;
     throw InputError("object = \"" + rows[i].object + "\"",
-                     path.string() + ", row " + std::to_string(i + 1), std::to_string(i));
+                     path.string() + ", row " + std::to_string(i + 1),
+                     SampleName(static_cast<std::int64_t>(i)));
   }
   return rows;
 }

@@ -13,7 +13,7 @@ namespace antigrasp {
 // one thread; longest for balls and rings, whose middle is equally far from everything.
 void MeshToSdf(const TriangleMesh& mesh, SdfGrid* grid);
 
-// Distance queries against a fixed mesh (also used by tests and similarity measures).
+// Distance queries against a fixed mesh (also used by tests and measures of change).
 class MeshDistance {
  public:
   explicit MeshDistance(const TriangleMesh& mesh);

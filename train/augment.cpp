@@ -8,10 +8,10 @@
 
 namespace antigrasp {
 
-torch::Tensor Augment(const torch::Tensor& folded, const std::string& kind, RngStream* rng) {
-  if (kind == "none") return folded;
-  torch::Tensor grid = Unfold(folded);  // [N, 1, 32, 32, 32]
-  if (kind != "flips") {
+torch::Tensor Augment(const torch::Tensor& folded, Augmentation kind, RngStream* rng) {
+  if (kind == Augmentation::kNone) return folded;
+  torch::Tensor grid = Unfold(folded);  // [N, 1, r, r, r]
+  if (kind != Augmentation::kFlips) {
     const std::int64_t n = grid.size(2), most = kLargestShift;
     grid = torch::replication_pad3d(grid, std::vector<std::int64_t>(6, most));
     for (std::int64_t axis = 2; axis < 5; ++axis) {
@@ -19,7 +19,7 @@ torch::Tensor Augment(const torch::Tensor& folded, const std::string& kind, RngS
       grid = grid.slice(axis, first, first + n);
     }
   }
-  if (kind != "shifts") {
+  if (kind != Augmentation::kShifts) {
     std::vector<std::int64_t> mirrored;
     for (std::int64_t axis = 2; axis < 5; ++axis) {
       if (rng->Below(2) == 1) mirrored.push_back(axis);

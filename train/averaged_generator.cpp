@@ -84,7 +84,8 @@ torch::Tensor AveragedGenerator::Sample(const LatentMixture& latent, std::uint64
   torch::NoGradGuard no_grad;
   RefreshStatistics();
   network_->eval();
-  return OfBlocks(first, count, torch::empty({0, 1, 32, 32, 32}), [&](std::int64_t block) {
+  const std::int64_t r = options_.resolution;
+  return OfBlocks(first, count, torch::empty({0, 1, r, r, r}), [&](std::int64_t block) {
     return network_->forward(LatentBlock(latent, seed, "latent", block).to(device_));
   });
 }

@@ -31,7 +31,7 @@ class AveragedGenerator {
   // Takes the function of `other`, which has batch norm, where this one has none.
   void TakeFolded(AveragedGenerator* other);
 
-  // Network values [count, 1, 32, 32, 32] float32 on the CPU of SampleLatents(...).
+  // Network values [count, 1, r, r, r] float32 on the CPU of SampleLatents(...).
   torch::Tensor Sample(const LatentMixture& latent, std::uint64_t seed, std::int64_t first,
                        std::int64_t count);
 

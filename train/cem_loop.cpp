@@ -96,7 +96,7 @@ Episode CemLoop::Finish() {
 
 void CemLoop::Next(const Episode& episode) {
   const int number = model_->episode();
-  if (config_.cem.mode == "latent") {
+  if (config_.cem.mode == EpisodeMode::kLatent) {
     const torch::Tensor z =
         model_->Latents(StageSeed(config_, number), 0, config_.cem.samples)
             .index_select(0, torch::tensor(episode.selection.elites, torch::kLong));
@@ -111,7 +111,7 @@ void CemLoop::Next(const Episode& episode) {
 std::int64_t CemLoop::UpdatesSoFar() const {
   const bool trained = config_.start.empty() || config_.fine_tune;
   const std::int64_t first = trained ? config_.cem.prior_iterations : 0;
-  const std::int64_t later = config_.cem.mode == "latent" ? 0 : config_.cem.iterations;
+  const std::int64_t later = config_.cem.mode == EpisodeMode::kLatent ? 0 : config_.cem.iterations;
   const int episode = model_->episode();
   return (episode == 0 ? 0 : first + (episode - 1LL) * later) + model_->step();
 }

@@ -52,7 +52,7 @@ void RequireSameModel(const RunConfig& config) {
 void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder& control,
                  const ShapeModelMaker& make) {
   RunConfig forked = config;
-  forked.cem.select = "random";
+  forked.cem.select = EliteOrder::kRandom;
   forked.cem.control = false;
   forked.stl_count = 0;
   MakeFolder(control.root);

@@ -121,7 +121,7 @@ void FolderLoop::Resume() {
 
 void FolderLoop::ScorePrior() {
   const ScoredStage scored = loop_.ScorePrior(folder_.Prior().string());
-  WriteFileAtomic(folder_.PriorScores(), StageScoresCsv(scored));
+  WriteFileAtomic(folder_.PriorScores(), StageScoresCsv(-1, scored));
   LogStage(loop_.rows().back(), loop_.rows());
 }
 
@@ -174,11 +174,12 @@ Episode FolderLoop::FinishEpisode() {
 void FolderLoop::Record(const Episode& finished) {
   const std::vector<StageStatistics>& rows = loop_.rows();
   const std::vector<std::int64_t>& elites = finished.selection.elites;
-  if (std::ssize(elites) < config_.cem.keep && config_.cem.variant == "paper") {
+  if (std::ssize(elites) < config_.cem.keep && config_.cem.variant == EliteRule::kPaper) {
     spdlog::warn("only {} of {} samples are usable: fewer elites than cem.keep = {}", elites.size(),
                  config_.cem.samples, config_.cem.keep);
   }
-  WriteFileAtomic(folder_.Episode(episode()) / "scores.csv", StageScoresCsv(finished.scored));
+  WriteFileAtomic(folder_.Episode(episode()) / "scores.csv",
+                  StageScoresCsv(episode(), finished.scored));
   WriteFileAtomic(folder_.Episode(episode()) / "losses.csv", LossesCsv(scalars_, losses_));
   WriteFileAtomic(folder_.Statistics(), StatisticsToCsv(rows));
   WriteElites(folder_.Episode(episode()) / "elites.h5", finished.scored, elites, episode(),

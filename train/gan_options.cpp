@@ -14,9 +14,9 @@ void Bind(OptionTable* table, GanOptions* options) {
   table->Add("gan.beta2", &options->beta2, 0, 0.999999, "Adam's decay of the second moment");
   table->Add("gan.lr_decay_fraction", &options->lr_decay_fraction, 0, 1,
              "last share of an episode in which the learning rates fall to 0; 0 = never");
-  table->Add("gan.symmetries", &options->symmetries, {"none", "around_z", "around_z_and_up"},
+  table->Add("gan.symmetries", &options->symmetries,
              "show each real shape under a random symmetry of the cube");
-  table->Add("gan.augment", &options->augment, {"none", "flips", "shifts", "shifts_and_flips"},
+  table->Add("gan.augment", &options->augment,
              "show the discriminator every shape, real or generated, shifted or mirrored");
   table->Add("gan.ema", &options->ema, 0, 0.999999,
              "decay per step of the averaged generator; 0 = 1 - 4 / iterations, in [0.9, 0.999]");

@@ -1,10 +1,27 @@
 #pragma once
 
-#include <string>
+#include <array>
 
 #include "antigrasp/core/options.h"
 
 namespace antigrasp {
+
+// Under which symmetries of the cube the real shapes are shown (symmetries.h).
+enum class Symmetries { kNone, kAroundZ, kAroundZAndUp };
+constexpr auto ChoicesOf(Symmetries) {
+  return std::to_array<Choice<Symmetries>>({{Symmetries::kNone, "none"},
+                                            {Symmetries::kAroundZ, "around_z"},
+                                            {Symmetries::kAroundZAndUp, "around_z_and_up"}});
+}
+
+// How batches are moved before the discriminator sees them (augment.h).
+enum class Augmentation { kNone, kFlips, kShifts, kShiftsAndFlips };
+constexpr auto ChoicesOf(Augmentation) {
+  return std::to_array<Choice<Augmentation>>({{Augmentation::kNone, "none"},
+                                              {Augmentation::kFlips, "flips"},
+                                              {Augmentation::kShifts, "shifts"},
+                                              {Augmentation::kShiftsAndFlips, "shifts_and_flips"}});
+}
 
 // How one GAN is trained.
 struct GanOptions {
@@ -19,8 +36,8 @@ struct GanOptions {
       0.25;  // last share of an episode in which the rate falls to 0; 0 = none
   // The same random shift or mirror for all shapes of a batch that the discriminator sees, real and
   // generated, so that it cannot learn the set by heart (DiffAugment, Zhao et al., NeurIPS 2020).
-  std::string augment = "none";
-  std::string symmetries = "none";  // under which the real shapes are shown (symmetries.h)
+  Augmentation augment = Augmentation::kNone;
+  Symmetries symmetries = Symmetries::kNone;
   double ema = 0.0;  // decay of the averaged generator; 0 = 1 - 4 / iterations, in [0.9, 0.999]
 };
 

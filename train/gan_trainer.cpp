@@ -234,7 +234,7 @@ void GanTrainer::BeginFixedEpisode(int episode, const LatentMixture& latent) {
 StepReport GanTrainer::Step(const torch::Tensor& shapes) {
   Impl& t = *impl_;
   AG_CHECK(t.step < t.iterations, "the episode is over");
-  AG_CHECK(shapes.dim() == 5 && shapes.size(0) > 0, "shapes must be [N, 1, 32, 32, 32], N > 0");
+  AG_CHECK(shapes.dim() == 5 && shapes.size(0) > 0, "shapes must be [N, 1, r, r, r], N > 0");
   RngStream rng(t.seed, "gan", static_cast<std::uint64_t>(t.episode),
                 static_cast<std::uint64_t>(t.step));
   t.generator->train();

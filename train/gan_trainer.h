@@ -41,7 +41,7 @@ class GanTrainer {
   // `latent` (latent-space CEM, or networks trained elsewhere).
   void BeginFixedEpisode(int episode, const LatentMixture& latent);
 
-  // One update of D (discriminator_steps of them) and of G. `shapes`: [N, 1, 32, 32, 32] float16 or
+  // One update of D (discriminator_steps of them) and of G. `shapes`: [N, 1, r, r, r] float16 or
   // float32 network values, fastest on the trainer's own device. A loss or gradient that is not
   // finite: RuntimeFailure before it reaches the weights.
   StepReport Step(const torch::Tensor& shapes);
@@ -55,7 +55,7 @@ class GanTrainer {
   torch::Device device() const;
 
   // Sample `first + i` of stream `seed` from the averaged generator, i in [0, count): network
-  // values [count, 1, 32, 32, 32] float32 on the CPU. Sample i does not depend on count or batch.
+  // values [count, 1, r, r, r] float32 on the CPU. Sample i does not depend on count or batch.
   torch::Tensor Sample(std::uint64_t seed, std::int64_t first, std::int64_t count);
 
   // The z of these samples, [count, latent]; the mixture they are drawn from.

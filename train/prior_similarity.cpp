@@ -23,7 +23,7 @@ DistanceMatrix Distances(const torch::Tensor& a, const torch::Tensor& b) {
 
 }  // namespace
 
-SetSimilarity CompareSets(const torch::Tensor& samples, const torch::Tensor& reference) {
+PriorSimilarity CompareWithPrior(const torch::Tensor& samples, const torch::Tensor& reference) {
   const torch::NoGradGuard no_grad;
   const std::int64_t n = std::min(samples.size(0), reference.size(0));
   AG_CHECK(n >= 2, "two sets of at least two shapes");

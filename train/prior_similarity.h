@@ -5,10 +5,10 @@
 namespace antigrasp {
 
 // How a generated set relates to a reference set of the same size (the definitions are those of
-// similarity/set_comparison.h) by the Euclidean distance between network values (shapes as [N, ...]
-// tensors, any shape, any float type). Cost: one N x N x 32^3 matrix product, 2 s for N = 500 on
-// two cores.
-struct SetSimilarity {
+// datasets/set_comparison.h) by the Euclidean distance between network values (shapes as [N, ...]
+// tensors, any shape, any float type). Cost: one N x N x r^3 matrix product, 2 s for N = 500 at
+// 32^3 on two cores.
+struct PriorSimilarity {
   double coverage = 0.0;    // share of the reference that is the nearest of some sample (COV)
   double nna = 0.0;         // leave-one-out 1-nearest-neighbour accuracy; 0.5 = indistinguishable
   double duplicates = 0.0;  // share of samples nearer to another sample than half the reference's
@@ -17,6 +17,6 @@ struct SetSimilarity {
 };
 
 // Both sets need at least two shapes; the larger one is cut to the smaller one's size.
-SetSimilarity CompareSets(const torch::Tensor& samples, const torch::Tensor& reference);
+PriorSimilarity CompareWithPrior(const torch::Tensor& samples, const torch::Tensor& reference);
 
 }  // namespace antigrasp

@@ -5,20 +5,19 @@
 namespace antigrasp {
 
 void Bind(OptionTable* table, CemOptions* o) {
-  table->Add("cem.mode", &o->mode, {"gan", "latent"},
+  table->Add("cem.mode", &o->mode,
              "what an episode adapts to the elites: the networks, or the distribution of z");
   table->Add("cem.episodes", &o->episodes, 0, 1000, "resampling rounds after episode 0");
   table->Add("cem.prior_iterations", &o->prior_iterations, 1, 1e8, "GAN updates in episode 0");
   table->Add("cem.iterations", &o->iterations, 1, 1e8, "GAN updates in every later episode");
   table->Add("cem.samples", &o->samples, 1, 1e6, "objects sampled per episode");
   table->Add("cem.keep", &o->keep, 1, 1e6, "elites kept per episode");
-  table->Add("cem.variant", &o->variant, {"paper", "stratified"},
+  table->Add("cem.variant", &o->variant,
              "elites: the least graspable of all, or of every cell of the prior set");
   table->Add("cem.cells", &o->cells, 1, 1e5, "cells of the stratified variant");
   table->Add("cem.step", &o->step, 1e-3, 1,
              "latent mode: standard deviation of z around an elite's; 1 forgets the elites");
-  table->Add("cem.select", &o->select, {"graspability", "random"},
-             "keep the least graspable, or random ones (the control)");
+  table->Add("cem.select", &o->select, "keep the least graspable, or random ones (the control)");
   table->Add("cem.restart", &o->restart, "fresh networks each episode instead of going on");
   table->Add("cem.redistance", &o->redistance,
              "train on the exact distances to the elites' meshes, not on the generator's values");
@@ -79,10 +78,12 @@ RunConfig NetworksFromToml(const std::string& toml, const std::string& origin) {
   int retired = 0;  // sized the mixture of z, which now has the size it was saved with
   table.Add("model.components", &retired, 1, 1000, "");
   table.ApplyKnown(toml, origin, "model.");
+  CheckResolution(config.model, origin);
   return config;
 }
 
 void Validate(const RunConfig& config, const std::string& origin) {
+  CheckResolution(config.model, origin);
   if (config.fine_tune && config.start.empty()) {
     throw InputError("run.fine_tune without run.start", origin, "networks to start from (--from)");
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -11,21 +12,42 @@
 
 namespace antigrasp {
 
+// What an episode adapts to the elites. kGan: the networks, trained on them. kLatent: the
+// distribution of z, drawn around the elites' z under the generator of episode 0
+// (latent_mixture.h); minutes.
+enum class EpisodeMode { kGan, kLatent };
+constexpr auto ChoicesOf(EpisodeMode) {
+  return std::to_array<Choice<EpisodeMode>>(
+      {{EpisodeMode::kGan, "gan"}, {EpisodeMode::kLatent, "latent"}});
+}
+
+// Where elites are looked for (selection.h): among all samples, or shared out like the prior set.
+enum class EliteRule { kPaper, kStratified };
+constexpr auto ChoicesOf(EliteRule) {
+  return std::to_array<Choice<EliteRule>>(
+      {{EliteRule::kPaper, "paper"}, {EliteRule::kStratified, "stratified"}});
+}
+
+// By what they are picked. kRandom: the control run.
+enum class EliteOrder { kGraspability, kRandom };
+constexpr auto ChoicesOf(EliteOrder) {
+  return std::to_array<Choice<EliteOrder>>(
+      {{EliteOrder::kGraspability, "graspability"}, {EliteOrder::kRandom, "random"}});
+}
+
 // The cross-entropy loop of V-B and VI-C.
 struct CemOptions {
-  // "gan": an episode retrains the GAN on the elites. "latent": it keeps the generator of episode 0
-  // and draws z around the elites' z (latent_mixture.h); minutes.
-  std::string mode = "gan";
-  int episodes = 3;               // resampling rounds after episode 0, the GAN of the prior set
-  int prior_iterations = 16000;   // GAN updates in episode 0
-  int iterations = 16000;         // GAN updates in every later episode
-  int samples = 2500;             // objects drawn from the generator per episode
-  int keep = 500;                 // elites: the least graspable of them
-  std::string variant = "paper";  // or "stratified": elites shared out like the prior (selection.h)
-  int cells = 100;                // of the stratified variant
+  EpisodeMode mode = EpisodeMode::kGan;
+  int episodes = 3;              // resampling rounds after episode 0, the GAN of the prior set
+  int prior_iterations = 16000;  // GAN updates in episode 0
+  int iterations = 16000;        // GAN updates in every later episode
+  int samples = 2500;            // objects drawn from the generator per episode
+  int keep = 500;                // elites: the least graspable of them
+  EliteRule variant = EliteRule::kPaper;
+  int cells = 100;    // of the stratified variant
   double step = 0.5;  // latent mode: how far z strays from an elite's (latent_mixture.h)
-  std::string select = "graspability";  // or "random": the control run
-  bool restart = false;                 // fresh networks each episode instead of going on
+  EliteOrder select = EliteOrder::kGraspability;
+  bool restart = false;  // fresh networks each episode instead of going on
   // Elites are learnt from as the exact distances to their meshes, not as what the generator drew.
   bool redistance = false;
   double prior_fraction = 0.0;  // prior shapes mixed into the elites, as a share of `keep`
@@ -63,7 +85,7 @@ RunConfig FromToml(const std::string& toml, const std::string& origin);
 // not know are left out, but for those of the networks.
 RunConfig NetworksFromToml(const std::string& toml, const std::string& origin);
 
-// InputError for combinations no single range can refuse (keep > samples, ...).
+// InputError for what no single range can refuse (keep > samples, a resolution of 48, ...).
 void Validate(const RunConfig& config, const std::string& origin);
 
 }  // namespace antigrasp

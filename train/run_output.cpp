@@ -15,6 +15,7 @@
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/render/contact_sheet.h"
 #include "antigrasp/train/elites.h"
+#include "antigrasp/train/sample_name.h"
 
 namespace antigrasp {
 namespace {
@@ -97,10 +98,11 @@ void WriteElites(const std::filesystem::path& path, const ScoredStage& scored,
   set.kind = "elites";
   set.seed = config.seed;
   set.truncation = LargestDistance(config.model);
-  set.provenance = "antigrasp train, episode " + std::to_string(episode) + ", " +
-                   (config.cem.select == "random" ? "random samples" : "least graspable samples");
+  set.provenance =
+      "antigrasp train, episode " + std::to_string(episode) + ", " +
+      (config.cem.select == EliteOrder::kRandom ? "random samples" : "least graspable samples");
   for (const std::int64_t i : elites) {
-    set.names.push_back("sample-" + std::to_string(i));
+    set.names.push_back(SampleName(i));
     set.grids.push_back(GridOf(scored.values[i], config.model));
   }
   WriteShapeSet(path, set);
@@ -141,8 +143,9 @@ void ExportLeastGraspable(const ScoredStage& scored, const RunConfig& config,
     WriteMesh(folder.Stl() / name, FitToPlate(mesh, config.stl_size_mm));
     const Graspability again =
         EvaluateGraspability(mesh, config.metric, fresh, static_cast<std::uint64_t>(i));
-    csv.Text(name).Count(i).Numbers(
-        {value(i), again.value, again.ci_low, again.ci_high, config.stl_size_mm});
+    csv.Text(name)
+        .Text(SampleName(i))
+        .Numbers({value(i), again.value, again.ci_low, again.ci_high, config.stl_size_mm});
     csv.EndRow();
   }
   WriteFileAtomic(folder.Stl() / "scores.csv", csv.text());

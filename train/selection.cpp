@@ -53,7 +53,7 @@ torch::Tensor ExactValues(const ScoredStage& scored, const std::vector<std::int6
 
 EliteSelector::EliteSelector(const RunConfig& config, torch::Tensor prior)
     : config_(config), prior_(std::move(prior)) {
-  if (config_.cem.variant != "stratified") return;
+  if (config_.cem.variant != EliteRule::kStratified) return;
   const std::vector<std::int64_t> chosen =
       Draw(Every(prior_.size(0)), config_.cem.cells, RngStream(config_.seed, "cells"));
   centres_ = Rows(prior_, chosen).flatten(1).to(torch::kFloat);
@@ -81,10 +81,11 @@ Selection EliteSelector::Select(const ScoredStage& scored, int episode) const {
   const CemOptions& cem = config_.cem;
   const auto stage = static_cast<std::uint64_t>(episode);
   RngStream chance(config_.seed, "control", stage);
-  const std::vector<double> order =
-      cem.select == "random" ? RandomOrder(scored.graspabilities, &chance) : scored.graspabilities;
+  const std::vector<double> order = cem.select == EliteOrder::kRandom
+                                        ? RandomOrder(scored.graspabilities, &chance)
+                                        : scored.graspabilities;
   Selection selection;
-  if (cem.variant == "stratified") {
+  if (cem.variant == EliteRule::kStratified) {
     std::vector<double> weight;
     for (const auto& residents : residents_) weight.push_back(double(residents.size()));
     SharedElites shared = LeastGraspableByCell(order, CellsOf(scored.values), weight, cem.keep);

@@ -17,14 +17,14 @@ struct Selection {
 };
 
 // Picks elites by the rules of cem.variant:
-//   "paper"       the cem.keep least graspable of all samples (V-B, VI-C).
-//   "stratified"  the prior set is cut into cem.cells cells (a shape belongs to the nearest of that
+//   kPaper        the cem.keep least graspable of all samples (V-B, VI-C).
+//   kStratified   the prior set is cut into cem.cells cells (a shape belongs to the nearest of that
 //                 many random prior shapes, by network values); each cell keeps the least graspable
 //                 of the samples in it, as many as its share of the prior set, and prior shapes of
 //                 the cell stand in for those that are missing. What the elites are like, to the
 //                 grain of the cells, then stays what the prior is like: the similarity constraint
 //                 D_KL(P_S || P_theta) of V-C, held by construction instead of by hope.
-// In both, cem.prior_fraction more shapes of the prior set are mixed in, and cem.select = "random"
+// In both, cem.prior_fraction more shapes of the prior set are mixed in, and cem.select = kRandom
 // puts chance in the place of graspability.
 class EliteSelector {
  public:
@@ -39,7 +39,7 @@ class EliteSelector {
 
   const RunConfig& config_;
   torch::Tensor prior_;
-  torch::Tensor centres_;                             // [cells, 32^3] float32
+  torch::Tensor centres_;                             // [cells, r^3] float32
   std::vector<std::vector<std::int64_t>> residents_;  // of each cell: prior shapes
 };
 

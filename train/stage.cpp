@@ -12,14 +12,15 @@
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/quality/score_table.h"
 #include "antigrasp/train/prior_similarity.h"
+#include "antigrasp/train/sample_name.h"
 
 namespace antigrasp {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-void CompareWithPrior(const ScoredStage& scored, const torch::Tensor& prior, int compared,
-                      StageStatistics* row) {
+void FillSimilarity(const ScoredStage& scored, const torch::Tensor& prior, int compared,
+                    StageStatistics* row) {
   std::vector<std::int64_t> valid;
   for (std::size_t i = 0; i < scored.objects.size(); ++i) {
     if (scored.objects[i].ok()) valid.push_back(static_cast<std::int64_t>(i));
@@ -28,7 +29,7 @@ void CompareWithPrior(const ScoredStage& scored, const torch::Tensor& prior, int
                                          static_cast<std::int64_t>(compared)});
   if (n < 2) return;
   valid.resize(static_cast<std::size_t>(n));
-  const SetSimilarity similarity = CompareSets(
+  const PriorSimilarity similarity = CompareWithPrior(
       scored.values.index_select(0, torch::tensor(valid, torch::kLong)), prior.slice(0, 0, n));
   row->coverage = similarity.coverage;
   row->nna = similarity.nna;
@@ -122,16 +123,16 @@ StageStatistics Summarize(int stage, const ScoredStage& scored, const torch::Ten
   row.graspability = MeanWithInterval(scored.graspabilities);
   row.elite_threshold = kNaN;
   row.coverage = row.nna = row.duplicates = row.diversity = kNaN;
-  if (stage >= 0) CompareWithPrior(scored, prior, config.cem.compared, &row);
+  if (stage >= 0) FillSimilarity(scored, prior, config.cem.compared, &row);
   return row;
 }
 
-std::string StageScoresCsv(const ScoredStage& scored) {
+std::string StageScoresCsv(int stage, const ScoredStage& scored) {
   std::vector<ScoreRow> rows;
   for (std::size_t i = 0; i < scored.objects.size(); ++i) {
     const bool ok = scored.objects[i].ok();
     rows.push_back(
-        {std::to_string(i),
+        {stage < 0 ? std::to_string(i) : SampleName(static_cast<std::int64_t>(i)),
          std::string(ok ? Name(scored.scores[i].status) : Name(scored.objects[i].status)),
          SummaryOf(scored.scores[i])});
   }

@@ -43,7 +43,8 @@ StageStatistics Summarize(int stage, const ScoredStage& scored, const torch::Ten
                           const RunConfig& config);
 
 // scores.csv: one row per sample, no wall time in it, so that equal runs write equal bytes.
-std::string StageScoresCsv(const ScoredStage& scored);
+// Samples go by SampleName, the shapes of the prior set (stage -1) by their place in prior.h5.
+std::string StageScoresCsv(int stage, const ScoredStage& scored);
 
 // A grid of distances from one sample's network values.
 SdfGrid GridOf(const torch::Tensor& value, const ModelOptions& model);

@@ -19,7 +19,7 @@ struct StageStatistics {
   int without_grasps = 0;  // graspability 0 because no grasp was found
   MeanInterval graspability;
   double elite_threshold = 0.0;  // the highest graspability kept; NaN at the last stage
-  double coverage = 0.0;         // similarity.h, against the prior set; NaN for the prior itself
+  double coverage = 0.0;  // prior_similarity.h, against the prior set; NaN for the prior itself
   double nna = 0.0;
   double duplicates = 0.0;
   double diversity = 0.0;

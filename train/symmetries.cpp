@@ -4,11 +4,10 @@
 
 namespace antigrasp {
 
-torch::Tensor RandomSymmetries(const torch::Tensor& batch, const std::string& symmetries,
-                               RngStream* rng) {
-  if (symmetries == "none") return batch;
+torch::Tensor RandomSymmetries(const torch::Tensor& batch, Symmetries symmetries, RngStream* rng) {
+  if (symmetries == Symmetries::kNone) return batch;
   AG_CHECK(batch.dim() == 5, "grids [N, 1, z, y, x]");
-  const bool upside_down = symmetries == "around_z_and_up";
+  const bool upside_down = symmetries == Symmetries::kAroundZAndUp;
   std::vector<torch::Tensor> shown;
   for (std::int64_t i = 0; i < batch.size(0); ++i) {
     torch::Tensor grid = batch[i];  // [1, z, y, x]

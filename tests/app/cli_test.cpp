@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_reader.h"
@@ -33,19 +34,77 @@ int FilesIn(const fs::path& folder) {
   return static_cast<int>(std::distance(fs::directory_iterator(folder), {}));
 }
 
+// The first words below "Subcommands:".
+std::vector<std::string> CommandsIn(const std::string& help) {
+  std::istringstream lines(help.substr(std::min(help.size(), help.find("Subcommands:"))));
+  std::vector<std::string> commands;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("  ") || line[2] == ' ') continue;
+    commands.push_back(line.substr(2, line.find(' ', 2) - 2));
+  }
+  return commands;
+}
+
 TEST(Cli, HelpNamesEveryCommandAndEveryCommandHasHelp) {
   const Outcome help = Antigrasp("help");
   EXPECT_EQ(help.code, 0);
+  const std::vector<std::string> commands = CommandsIn(help.text);
   for (const char* command :
-       {"dataset", "train", "sample", "remesh", "evaluate", "quality", "export", "info"}) {
-    EXPECT_NE(help.text.find(command), std::string::npos) << command;
-    const Outcome own = Antigrasp(std::string("help ") + command);
-    EXPECT_EQ(own.code, 0) << command;
-    EXPECT_NE(own.text.find("Usage"), std::string::npos) << own.text;
+       {"dataset", "train", "sample", "remesh", "evaluate", "compare", "quality", "perturb",
+        "shape", "poses", "trial", "sheet", "figure", "export", "generator", "info"}) {
+    EXPECT_TRUE(std::find(commands.begin(), commands.end(), command) != commands.end()) << command;
   }
-  ExpectRefused("help fly", "no command fly");
-  ExpectRefused("fly", "");
-  ExpectRefused("", "");
+  for (const std::string& command : commands) {
+    const Outcome own = Antigrasp("help " + command);
+    EXPECT_EQ(own.code, 0) << command;
+    EXPECT_NE(own.text.find("Usage: antigrasp " + command + " "), std::string::npos) << own.text;
+  }
+  const Outcome bare = Antigrasp("");
+  EXPECT_EQ(bare.code, 0);
+  EXPECT_EQ(bare.text, help.text);
+}
+
+TEST(Cli, HelpFollowsCommandsOfCommands) {
+  for (const char* of : {"dataset", "perturb"}) {
+    const std::vector<std::string> commands = CommandsIn(Antigrasp(std::string("help ") + of).text);
+    EXPECT_GE(commands.size(), 2u) << of;
+    for (const std::string& command : commands) {
+      const std::string path = std::string(of) + " " + command;
+      const Outcome own = Antigrasp("help " + path);
+      EXPECT_EQ(own.code, 0) << path;
+      EXPECT_NE(own.text.find("Usage: antigrasp " + path + " "), std::string::npos) << own.text;
+      EXPECT_NE(own.text.find("--out"), std::string::npos) << own.text;
+    }
+  }
+  ExpectRefused("help fly", "no command fly (antigrasp)");
+  ExpectRefused("help dataset imprt",
+                "no command imprt (antigrasp dataset): expected a known command; the nearest is "
+                "import\n");
+  ExpectRefused("help info fly", "no command fly (antigrasp info): expected nothing behind it");
+}
+
+TEST(Cli, AnUnknownWordNamesTheNearestThatIsKnown) {
+  ExpectRefused("evalute a.stl",
+                "no command evalute (antigrasp): expected a known command; the nearest is "
+                "evaluate\n");
+  ExpectRefused("trian", "; the nearest is train\n");
+  ExpectRefused("evaluate --num-grasp 3 a.stl",
+                "no option --num-grasp (antigrasp evaluate): expected a known option; the nearest "
+                "is --num-grasps\n");
+  // An option that is missing because another's name was misspelt, a value behind "=", a flag.
+  ExpectRefused("export a.stl --otu=x", "no option --otu (antigrasp export)");
+  ExpectRefused("export a.stl --otu=x", "; the nearest is --out\n");
+  ExpectRefused("evaluate a.stl --no-adaptiv", "; the nearest is --no-adaptive\n");
+  ExpectRefused("perturb serach a.stl",
+                "no command serach (antigrasp perturb): expected a known command; the nearest is "
+                "search\n");
+  ExpectRefused("dataset import a.stl --ou x", "(antigrasp dataset import): expected a known");
+  ExpectRefused("--versoin",
+                "no option --versoin (antigrasp): expected a known option; the "
+                "nearest is --version\n");
+  // Not a word that could be one.
+  ExpectRefused("info a.stl b.stl", "b.stl");
+  ExpectRefused("dataset", "subcommand");
 }
 
 TEST(Cli, RefusesBadInputInOneLineAndWritesNothing) {

@@ -232,6 +232,44 @@ TEST(EvaluateCli, TakesTheBaselineFromTheOriginalOfTheSameName) {
   EXPECT_NE(outcome.text.find(text), std::string::npos) << text << outcome.text;
 }
 
+TEST(EvaluateCli, RefusesASetInWhichNothingHasAScoreAndWritesNothing) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  fs::create_directory(folder / "in");
+  WriteMesh(folder / "in/a.stl", shapes::FlatSquare());
+  WriteMesh(folder / "in/b.stl", shapes::FlatSquare());
+  const Outcome outcome =
+      Antigrasp("evaluate " + dir + "in --grasps " + dir + "g.csv --out " + dir + "s.csv");
+  EXPECT_EQ(outcome.code, 2) << outcome.text;
+  EXPECT_NE(outcome.text.find("antigrasp: no object scored; a.stl: open"), std::string::npos)
+      << outcome.text;
+  EXPECT_NE(outcome.text.find("(" + dir + "in): expected a closed solid\n"), std::string::npos)
+      << outcome.text;
+  EXPECT_EQ(outcome.text.find("nan"), std::string::npos) << outcome.text;
+  for (const char* name : {"s.csv", "g.csv", "s.csv.metric.toml"}) {
+    EXPECT_FALSE(fs::exists(folder / name)) << name;
+  }
+}
+
+TEST(EvaluateCli, SaysThatNoPairHasTwoScoresOrThatTheBaselineIsZeroWithoutANumber) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteMesh(folder / "cube.stl", shapes::Cube());
+  WriteMesh(folder / "open.stl", shapes::FlatSquare());
+  const std::string common = "evaluate " + dir + "cube.stl --num-grasps 5 --num-draws 1 --out " +
+                             dir + "s.csv --baseline ";
+  const Outcome none = Antigrasp(common + dir + "open.stl");
+  EXPECT_EQ(none.code, 0) << none.text;
+  EXPECT_NE(none.text.find("no paired difference: "), std::string::npos) << none.text;
+  EXPECT_EQ(none.text.find("nan"), std::string::npos) << none.text;
+  const Outcome zero = Antigrasp(common + dir + "cube.stl --torsion none");
+  EXPECT_EQ(zero.code, 0) << zero.text;
+  EXPECT_NE(zero.text.find("paired difference +0.00000, the baseline is 0, 1 pairs\n"),
+            std::string::npos)
+      << zero.text;
+  EXPECT_EQ(zero.text.find("nan"), std::string::npos) << zero.text;
+}
+
 // The flag of an option, as docs/metric.md writes it.
 std::string Flag(const std::string& key) {
   std::string flag = key.starts_with("metric.") ? key.substr(7) : key;
@@ -254,8 +292,8 @@ TEST(EvaluateCli, EveryFlagOfTheMetricSetsItsOwnConstant) {
       **number = option.min + 0.9 * (**number - option.min) + 1e-4 * double(given.size() + 1);
     } else if (auto* const whole = std::get_if<int*>(&option.target)) {
       **whole += static_cast<int>(given.size()) + 1;
-    } else if (auto* const text = std::get_if<std::string*>(&option.target)) {
-      **text = option.choices.back();
+    } else if (auto* const choice = std::get_if<Option::Enum>(&option.target)) {
+      choice->set(choice->value, option.choices.size() - 1);
     } else {
       flags += " " + Flag(option.key);
       given[option.key] = "true";

@@ -3,7 +3,10 @@
 
 #include <filesystem>
 
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/sdf/sdf_grid.h"
 #include "tests/app/run_binary.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
@@ -58,6 +61,30 @@ TEST(InfoCli, SaysHowFarScoresLieBelowThoseOfTheOriginals) {
                 "  originals     2.00000\n  reduction     25.0 +-0.0 %\n");
   EXPECT_EQ(Antigrasp("info " + scores).text,
             scores + ": scores, 1 of 1 objects scored\n  graspability  0.75000\n");
+}
+
+TEST(InfoCli, SaysOfATruncatedFileThatItIs) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  ShapeSet set;
+  set.names = {"one"};
+  set.grids = {UnitCubeGrid(16)};
+  WriteShapeSet(folder / "s.h5", set);
+  const std::string bytes = ReadFile(folder / "s.h5");
+  folder.Write("cut.h5", std::string_view(bytes).substr(0, bytes.size() - 100));
+  ExpectRefused("info " + dir + "cut.h5", "truncated HDF5 file (" + dir + "cut.h5)");
+  WriteMesh(folder / "m.stl", shapes::Cube());
+  const std::string mesh = ReadFile(folder / "m.stl");
+  folder.Write("cut.stl", std::string_view(mesh).substr(0, mesh.size() - 1));
+  ExpectRefused("info " + dir + "cut.stl",
+                "truncated binary STL, or a wrong count: 11 faces by its 683 bytes, 12 by");
+}
+
+TEST(InfoCli, SaysOfATruncatedCheckpointThatItIs) {
+  const TempFolder folder;
+  const std::string path = folder.Write("cut.pt", "PK\x03\x04 and no more of the archive").string();
+  ExpectRefused("info " + path, "truncated or damaged checkpoint (" + path + ")");
+  ExpectRefused("info " + folder.Write("no.pt", "text").string(), "unknown kind of file");
 }
 
 const std::string kStatistics =

@@ -36,7 +36,7 @@ PerturbedObject Changed() {
   s.pairs_before = 66;
   s.pairs_after = 55;
   s.normals = {15.5, 3.5};
-  s.similarity = {1.25, 0.5, -2.5, 0.125};
+  s.change = {1.25, 0.5, -2.5, 0.125};
   s.seconds = 2.0;
   return item;
 }
@@ -130,7 +130,7 @@ TEST(PerturbOutput, TheSummaryIsOfThoseThatWorkedAndCountsTheOthersByReason) {
   other.scored.graspability_before = 0.45;
   other.scored.graspability_after = 0.41;
   other.scored.normals = {5.5, 9.0};
-  other.scored.similarity.hausdorff = 2.75;
+  other.scored.change.hausdorff = 2.75;
   other.scored.seconds = 5.0;
   failed.scored.result.failure = "after: open: 3 boundary edges";
   failed.scored.graspability_before = 100.0;

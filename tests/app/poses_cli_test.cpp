@@ -55,6 +55,29 @@ double ShareOfFace(double w, double h, double d) {
   return std::atan(w * h / (2.0 * d * std::sqrt(4.0 * d * d + w * w + h * h))) / std::numbers::pi;
 }
 
+TEST(PosesCli, SaysWhatOfAMeshItLeftOut) {
+  const shapes::TempFolder folder;
+  const std::string solid =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const auto whole = folder.Write("whole.obj", solid),
+             edge = folder.Write("edge.obj", solid + "f 1 2\n");
+  const std::string out = (folder / "p.csv").string();
+  EXPECT_EQ(cli::Antigrasp("poses " + whole.string() + " --out " + out).text.find("left out"),
+            std::string::npos);
+  const std::string poses = ReadFile(out);
+  const cli::Outcome outcome = cli::Antigrasp("poses " + edge.string() + " --out " + out);
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("edge.obj: 1 face of fewer than 3 corners left out (face 5 has 2 "
+                              "corners)\n"),
+            std::string::npos)
+      << outcome.text;
+  std::string named = ReadFile(out);
+  for (std::size_t at; (at = named.find("edge.obj")) != std::string::npos;) {
+    named.replace(at, 8, "whole.obj");
+  }
+  EXPECT_EQ(named, poses);
+}
+
 // A box of 2 x 3 x 4 away from the origin lies on its six faces: on 3 x 4 the centre of mass is 1
 // above the table, on 2 x 4 it is 1.5, on 2 x 3 it is 2.
 TEST(PosesCli, EveryColumnHoldsWhatItsNameSays) {

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_reader.h"
+#include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "tests/app/run_binary.h"
 #include "tests/support/shapes.h"
@@ -195,9 +197,10 @@ void ExpectTheScoredObjects(const json& data, const std::string& run) {
     const auto scores =
         ScoresIn(group == 0 ? run + "/prior_scores.csv"
                             : run + "/episode_" + std::to_string(group - 1) + "/scores.csv");
-    EXPECT_EQ(object["score"]["graspability"], scores.at(sample)) << group << " " << sample;
+    const std::string key = group == 0 ? sample : object["name"].get<std::string>();
+    EXPECT_EQ(object["score"]["graspability"], scores.at(key)) << group << " " << key;
     EXPECT_FALSE(object["mesh"].is_null());
-    const std::string rank = RankIn(scores, scores.at(sample));
+    const std::string rank = RankIn(scores, scores.at(key));
     EXPECT_EQ(object["numbers"][2], (json{"rank, least graspable first", rank}));
     const bool of_prior = object["name"].get<std::string>().starts_with("cylinders-");
     EXPECT_EQ(of_prior, group == 0) << object["name"];
@@ -212,6 +215,27 @@ void ExpectTheScoredObjects(const json& data, const std::string& run) {
   }
   EXPECT_GE(elites, 3);  // the least graspable of either episode
   for (const auto& [group, value] : least) EXPECT_EQ(value, -1.0) << "shown: the least graspable";
+}
+
+// A run of an older version called sample 12 "12" in scores.csv and "sample-12" in elites.h5.
+void ExpectTheSameOfOldNames(const json& data, const std::string& run, const TempFolder& folder) {
+  for (const std::string episode : {"0", "1"}) {
+    const std::string of = run + "/episode_" + episode;
+    const std::string table = ReadFile(of + "/scores.csv");
+    const std::string old = std::regex_replace(table, std::regex("sample-0*([0-9]+)"), "$1");
+    EXPECT_NE(old.find("\n0,"), std::string::npos) << old;
+    EXPECT_NE(old, table);
+    WriteFileAtomic(of + "/scores.csv", old);
+    if (!fs::exists(of + "/elites.h5")) continue;
+    ShapeSet elites = ReadShapeSet(of + "/elites.h5");
+    for (std::string& name : elites.names) {
+      name = std::regex_replace(name, std::regex("-0*([0-9]+)$"), "-$1");
+      EXPECT_LT(name.size(), 13u);
+    }
+    fs::remove(of + "/elites.h5");
+    WriteShapeSet(of + "/elites.h5", elites);
+  }
+  EXPECT_EQ(ReportOf(run + "/ --per-stage 6", folder / "old.html"), data);
 }
 
 // Last, because it takes the run apart.
@@ -241,7 +265,8 @@ void ExpectWhatIsMissing(const std::string& run, const TempFolder& folder) {
   EXPECT_TRUE(without["run"]["stages"][2]["coverage"].is_null());
 
   const std::string scores = ReadFile(run + "/episode_1/scores.csv");
-  WriteFileAtomic(run + "/episode_1/scores.csv", scores.substr(0, scores.find("\n2,") + 4));
+  WriteFileAtomic(run + "/episode_1/scores.csv",
+                  scores.substr(0, scores.find("\nsample-000002,") + 16));
   ExpectRefused("report " + run + " --out " + dir + "x.html", "scores.csv:4");
   EXPECT_FALSE(fs::exists(folder / "x.html"));
 
@@ -265,6 +290,9 @@ TEST(ReportCli, ShowsARunWithItsChartsAndTheObjectsItScoredOrWhatItLacks) {
   ReportOf(run + "/ --per-stage 6 --threads 1", folder / "one.html");
   EXPECT_EQ(ReadFile(folder / "r.html"), ReadFile(folder / "one.html"));
   EXPECT_EQ(ReportOf(run + " --per-stage 0", folder / "r.html")["objects"].size(), 0u);
+  const std::string table = ReadFile(run + "/episode_1/scores.csv");
+  ExpectTheSameOfOldNames(data, run, folder);
+  WriteFileAtomic(run + "/episode_1/scores.csv", table);
   ExpectWhatIsMissing(run, folder);
 }
 

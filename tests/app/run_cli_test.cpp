@@ -124,6 +124,36 @@ void ExpectSettingsByRank(const TempFolder& folder) {
   EXPECT_NE(on.find("\nbatch_norm = false "), std::string::npos) << on;
 }
 
+// The whole way from a prior set to a printable file, at twice the paper's resolution.
+TEST(RunCli, AFinerGridGoesThroughEveryCommand) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  folder.Write("fine.toml", kSettings + "[model]\nresolution = 64\nwidth = 2\nlatent = 4\n");
+  const Outcome run = Antigrasp(
+      "train " + dir + "fine.toml --threads 2 --set prior.count=4 --set cem.prior_iterations=4 " +
+      "--set cem.iterations=2 --set cem.episodes=1 --set cem.samples=4 --set cem.keep=1 " +
+      "--set cem.control=false --set cem.compared=4 --set run.stl_count=1 --out " + dir + "run");
+  ASSERT_EQ(run.code, 0) << run.text;
+  const ShapeSet samples = Sampled(dir + "run", 4, 7, folder / "s.h5");
+  ASSERT_EQ(samples.grids.size(), 4u);
+  EXPECT_EQ(samples.grids[3].n, 64);
+  EXPECT_EQ(samples.grids[3].spacing, 1.0 / 64.0);
+  for (const std::string& command :
+       {"remesh " + dir + "s.h5 --out " + dir + "meshes", "info " + dir + "s.h5",
+        "evaluate " + dir + "s.h5 --num-grasps 10 --num-draws 4 --out " + dir + "s.csv",
+        "export " + dir + "s.h5 --out " + dir + "prints",
+        "dataset make prisms --count 2 --resolution 64 --out " + dir + "p.h5"}) {
+    const Outcome outcome = Antigrasp(command);
+    EXPECT_EQ(outcome.code, 0) << command << "\n" << outcome.text;
+  }
+  EXPECT_NE(ReadFile(folder / "s.csv").find("\nsample-000003,"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "prints/print.csv"));
+  EXPECT_EQ(ReadShapeSet(folder / "p.h5").grids[1].n, 64);
+  ExpectRefused("train " + dir + "fine.toml --set model.resolution=48 --out " + dir + "x",
+                "model.resolution = 48");
+  EXPECT_FALSE(fs::exists(folder / "x"));
+}
+
 // Over ten seconds: a third of it is LibTorch, loaded by some twenty-five processes, and the runs
 // are of the size below which the generator makes no solids.
 TEST(RunCli, ARunCanBeKilledResumedSampledAndExported) {

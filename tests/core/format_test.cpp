@@ -37,6 +37,12 @@ TEST(FormatDuration, ChoosesTheUnitAPersonWould) {
   EXPECT_EQ(FormatDuration(3 * 3600 + 4 * 60 + 59), "3h 04m");
 }
 
+TEST(NumberedName, FillsUpToSixDigits) {
+  EXPECT_EQ(NumberedName("cylinders", 17), "cylinders-000017");
+  EXPECT_EQ(NumberedName("x", 999999), "x-999999");
+  EXPECT_EQ(NumberedName("x", 1000000), "x-1000000");
+}
+
 TEST(CsvField, QuotesOnlyWhatWouldBreakARow) {
   EXPECT_EQ(CsvField("mug.stl"), "mug.stl");
   EXPECT_EQ(CsvField("a,b"), "\"a,b\"");

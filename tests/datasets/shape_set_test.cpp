@@ -166,9 +166,17 @@ TEST(ShapeSet, FileCutAnywhereIsRefused) {
   WriteShapeSet(folder / "a.h5", Sample(3));
   const std::string bytes = ReadFile(folder / "a.h5");
   for (std::size_t part = 0; part < 16; ++part) {
-    ReadError(folder.Write("cut.h5", bytes.substr(0, bytes.size() * part / 16)));
+    const std::string error =
+        ReadError(folder.Write("cut.h5", bytes.substr(0, bytes.size() * part / 16)));
+    EXPECT_TRUE(error.starts_with(part == 0 ? "not an HDF5 file" : "truncated HDF5 file")) << error;
   }
-  ReadError(folder.Write("cut.h5", bytes.substr(0, bytes.size() - 1)));
+  for (const std::size_t left : {std::size_t{8}, std::size_t{95}, bytes.size() - 1}) {
+    const std::string error = ReadError(folder.Write("cut.h5", bytes.substr(0, left)));
+    EXPECT_TRUE(error.starts_with("truncated HDF5 file")) << left << error;
+  }
+  std::string zeros = bytes;
+  std::fill(zeros.begin() + 8, zeros.end(), '\0');
+  EXPECT_TRUE(ReadError(folder.Write("cut.h5", zeros)).starts_with("damaged HDF5 file"));
 }
 
 TEST(ShapeSet, DamagedBytesNeverCrash) {

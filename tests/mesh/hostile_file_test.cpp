@@ -68,6 +68,15 @@ TEST(HostileFile, StlCountsAreCheckedAgainstTheFileSize) {
   ExpectRefused("a.stl", kStlHead + Raw<std::uint32_t>({4294967295u}) + kStlFace, "214748364834");
   ExpectRefused("a.stl", kStlHead + Raw<std::uint32_t>({2}) + kStlFace + kStlFace.substr(0, 30),
                 "184 bytes");
+  ExpectRefused("a.stl", kStlHead + Raw<std::uint32_t>({99}) + kStlFace + kStlFace,
+                "2 faces by its 184 bytes, 99 by its face count");
+  ExpectRefused("a.stl", kStlHead + Raw<std::uint32_t>({1}) + kStlFace + kStlFace,
+                "wrong count: 2 faces by its 184 bytes, 1 by its face count");
+  ExpectRefused("a.stl", kStlHead + Raw<std::uint32_t>({0}) + kStlFace + "x",
+                "wrong count: 1 faces by its 135 bytes, 0 by its face count");
+  // The name of a solid begins many binary files.
+  ExpectRefused("a.stl", "solid" + kStlHead.substr(5) + Raw<std::uint32_t>({2}) + kStlFace,
+                "1 faces by its 134 bytes, 2 by its face count");
   ExpectRefused("a.stl", kStlHead, "84");
   ExpectRefused("a.stl", kStlHead + Raw<std::uint32_t>({0}), "no vertices");
 }
@@ -167,6 +176,19 @@ TEST(HostileFile, PlyHeadersMustDescribeAMesh) {
   ExpectRefused("a.ply", "ply\nformat ascii 1.0\nproperty float x\nend_header\n", ":3");
   ExpectRefused("a.ply", PlyHead("ascii", "3", "1", "float int"), "integer type");
   ExpectRefused("a.ply", PlyHead("ascii", "3", "1", "uchar quaternion"), "'quaternion'");
+}
+
+TEST(HostileFile, PlyStripsAreNotBelieved) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n";
+  ExpectRefused("a.ply", head + "3 0 1 3\n", "vertex number 3");
+  ExpectRefused("a.ply", head + "3 0 1 -2\n", "vertex number -2");
+  ExpectRefused("a.ply", head + "3 0 1 1.5\n", "vertex number -2");
+  ExpectRefused("a.ply", head + "2000000000 0 1 2\n", "ends");
+  ExpectRefused("a.ply", head + "5 0 1 -1 1 2\n", "no faces");
+  ExpectRefused("a.ply", head + "0\n", "no faces");
 }
 
 TEST(HostileFile, OffCountsAndIndicesAreNotBelieved) {

@@ -1,4 +1,5 @@
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/mesh/mesh_format.h"
 
 #include <gtest/gtest.h>
 
@@ -95,6 +96,18 @@ TEST(MeshFile, KnowsExtensionsInAnyCase) {
   }
   EXPECT_THROW(WriteMesh("/nowhere/a.step", shapes::Cube()), InputError);
   EXPECT_THROW(WriteMesh("/nowhere/a.stl", shapes::Cube()), InputError);
+}
+
+TEST(MeshFile, EveryListedFormatIsReadAndWritten) {
+  const TempFolder folder;
+  for (const std::string& extension : WritableExtensions()) {
+    WriteMesh(folder / ("a." + extension), shapes::Tetrahedron());
+    EXPECT_TRUE(std::filesystem::exists(folder / ("a." + extension))) << extension;
+  }
+  for (const std::string& extension : ReadableExtensions()) {
+    EXPECT_EQ(ReadMesh(folder / ("a." + extension)).faces.size(), 4u) << extension;
+  }
+  EXPECT_EQ(ReadableExtensions(), (std::vector<std::string>{"stl", "obj", "ply", "off"}));
 }
 
 TEST(MeshFile, RefusesToWriteWhatNoReaderWouldTake) {

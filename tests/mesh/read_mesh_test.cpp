@@ -110,6 +110,63 @@ TEST(ReadMesh, VerticesKeepTheOrderOfTheFileWithoutRepeats) {
   EXPECT_EQ(mesh.faces, (std::vector<Face>{{0, 1, 2}, {1, 3, 2}}));
 }
 
+// A binary STL of this triangle with `count` in its header and `faces` behind it.
+std::string Stl(const std::string& header, std::uint32_t count, int faces) {
+  std::string bytes = header + std::string(80 - header.size(), ' ') + Raw<std::uint32_t>({count});
+  for (int i = 0; i < faces; ++i) {
+    bytes += Raw<float>({0, 0, 1, 1, 2, 3, -4, 5, 6, 7, 8, -9.5F + static_cast<float>(i)}) + "ab";
+  }
+  return bytes;
+}
+
+TEST(ReadMesh, AStlThatNeverGotItsCountIsReadByItsSize) {
+  const TempFolder folder;
+  for (const char* header : {"by a scanner", "solid by a scanner"}) {
+    std::vector<std::string> notes;
+    ExpectTheTriangle(ReadMesh(folder.Write("a.stl", Stl(header, 0, 1)), &notes));
+    EXPECT_EQ(notes, (std::vector<std::string>{"the file counts 0 faces: 1 read by its size"}));
+    EXPECT_EQ(ReadMesh(folder.Write("b.stl", Stl(header, 0, 3)), &notes).faces.size(), 3u);
+    ExpectTheTriangle(ReadMesh(folder.Write("c.stl", Stl(header, 1, 1) + "appended"), &notes));
+    EXPECT_TRUE(notes.empty());
+  }
+}
+
+TEST(ReadMesh, FacesOfFewerThanThreeCornersAreLeftOutWithANote) {
+  const TempFolder folder;
+  const std::string three = "v 1 2 3\nv -4 5 6\nv 7 8 -9.5\n";
+  const auto notes_of = [&](const std::string& name, const std::string& bytes) {
+    std::vector<std::string> notes = {"of before"};
+    ExpectTheTriangle(ReadMesh(folder.Write(name, bytes), &notes));
+    return notes;
+  };
+  using Notes = std::vector<std::string>;
+  EXPECT_EQ(notes_of("a.obj", three + "f 1 2 3\n"), Notes{});
+  EXPECT_EQ(notes_of("a.obj", three + "f 1 2 3\nf 1 2\n"),
+            Notes{"1 face of fewer than 3 corners left out (face 2 has 2 corners)"});
+  EXPECT_EQ(notes_of("a.obj", three + "f 3\nf\nf 1 2 3\n"),
+            Notes{"2 faces of fewer than 3 corners left out (face 1 has 1 corners)"});
+  EXPECT_EQ(notes_of("a.off", "OFF\n3 2 0\n1 2 3\n-4 5 6\n7 8 -9.5\n2 0 1\n3 0 1 2\n"),
+            Notes{"1 face of fewer than 3 corners left out (face 1 has 2 corners)"});
+  EXPECT_THROW(Read("a.obj", three + "f 1 2\nf 2 3\n"), InputError);
+  EXPECT_THROW(Read("a.obj", three + "f 1 2 3\nf 1 4\n"), InputError);  // no such vertex
+}
+
+// A tetrahedron: its corner at the origin, the others on the axes.
+const std::string kTetrahedron =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property float z\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+
+TEST(ReadMesh, StripsOfAPlyTurnEverySecondTriangleRound) {
+  const std::vector<Face> outward{{0, 2, 1}, {1, 2, 3}, {1, 3, 0}, {0, 3, 2}};
+  // 021, 213 turned, 130, 302 turned: one strip; two with -1 between; two of the triangles, joined
+  // by three without area.
+  EXPECT_EQ(Read("a.ply", kTetrahedron + "6 0 2 1 3 0 2\n").faces, outward);
+  EXPECT_EQ(Read("a.ply", kTetrahedron + "9 0 2 1 3 -1 1 3 0 2\n").faces, outward);
+  EXPECT_EQ(Read("a.ply", kTetrahedron + "7 0 2 1 1 1 3 0\n").faces,
+            (std::vector<Face>{{0, 2, 1}, {1, 3, 0}}));
+}
+
 TEST(ReadMesh, APolygonHasAtMost4096Corners) {
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
   for (int i = 0; i < 4097; ++i) text += " 1";

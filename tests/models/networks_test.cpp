@@ -28,32 +28,42 @@ torch::Tensor Latent(std::int64_t count, std::int64_t length) {
 torch::Tensor PlainGenerator(Generator& generator, const torch::Tensor& z) {
   const auto parameters = generator->named_parameters();
   torch::Tensor x = torch::linear(z, parameters["project.weight"]).view({z.size(0), -1, 2, 2, 2});
-  for (int i = 0; i < 4; ++i) {
-    const std::string norm = "norm" + std::to_string(i);
+  for (int i = 0; parameters.contains("norm" + std::to_string(i) + ".weight"); ++i) {
+    const std::string norm = "norm" + std::to_string(i), up = "up" + std::to_string(i + 1);
     x = torch::relu(torch::batch_norm(x, parameters[norm + ".weight"], parameters[norm + ".bias"],
                                       {}, {}, true, 0.1, 1e-5, false));
-    x = i < 3
-            ? torch::conv_transpose3d(x, parameters["up" + std::to_string(i + 1) + "_weight"], {},
-                                      2, 1)
+    x = parameters.contains(up + "_weight")
+            ? torch::conv_transpose3d(x, parameters[up + "_weight"], {}, 2, 1)
             : torch::conv_transpose3d(x, parameters["last_weight"], parameters["last_bias"], 2, 1);
   }
   return torch::tanh(x);
 }
 
-TEST(Generator, EqualsThePlainLayersWithoutBlur) {
-  ModelOptions options = TinyModel();
+void ExpectPlainGenerator(ModelOptions options) {
   options.output_blur = false;
   Generator generator(options);
   const torch::Tensor z = Latent(4, options.latent);
   const torch::Tensor actual = generator(z), expected = PlainGenerator(generator, z);
   EXPECT_LT((actual - expected).abs().max().item<double>(), 1e-5);
-  const torch::Tensor weight = Latent(4, 32 * 32 * 32).view({4, 1, 32, 32, 32});
+  const std::int64_t r = options.resolution;
+  ASSERT_EQ(actual.sizes(), (std::vector<std::int64_t>{4, 1, r, r, r}));
+  const torch::Tensor weight = Latent(4, r * r * r).view({4, 1, r, r, r});
   const auto gradients = torch::autograd::grad({(actual * weight).sum()}, generator->parameters());
   const auto plain = torch::autograd::grad({(expected * weight).sum()}, generator->parameters());
   for (std::size_t i = 0; i < plain.size(); ++i) {
     EXPECT_LT((gradients[i] - plain[i]).abs().max().item<double>(),
               1e-4 * plain[i].abs().max().item<double>())
         << "parameter " << i;
+  }
+}
+
+TEST(Generator, EqualsThePlainLayersWithoutBlur) { ExpectPlainGenerator(TinyModel()); }
+
+TEST(Generator, EqualsThePlainLayersAtOtherResolutions) {
+  for (const int resolution : {16, 64}) {
+    ModelOptions options = TinyModel();
+    options.resolution = resolution;
+    ExpectPlainGenerator(options);
   }
 }
 
@@ -147,21 +157,26 @@ TEST(Generator, WeightsDependOnTheStreamOnly) {
 }
 
 // Packed shapes are channels of one input.
-void ExpectPlainLayers(int pack) {
+void ExpectPlainLayers(int pack, int resolution = 32) {
   ModelOptions options = TinyModel();
   options.spectral_norm = false;
   options.pack = pack;
+  options.resolution = resolution;
   Discriminator discriminator(options);
   const auto parameters = discriminator->named_parameters();
-  const torch::Tensor grid = Latent(3 * pack, 32 * 32 * 32).view({3 * pack, 1, 32, 32, 32});
-  torch::Tensor x = grid.view({3, pack, 32, 32, 32});
-  for (int i = 1; i <= 4; ++i) {
-    const std::string name = std::to_string(i);
+  const std::int64_t r = resolution;
+  const torch::Tensor grid = Latent(3 * pack, r * r * r).view({3 * pack, 1, r, r, r});
+  torch::Tensor x = grid.view({3, pack, r, r, r});
+  int layer = 1;
+  for (; x.size(2) > 2; ++layer) {
+    const std::string name = std::to_string(layer);
     x = torch::leaky_relu(
         torch::conv3d(x, parameters["layer" + name + ".weight"], parameters["bias" + name], 2, 1),
         0.2);
   }
-  x = torch::linear(x.flatten(1), parameters["layer5.weight"], parameters["bias5"]).squeeze(1);
+  x = torch::linear(x.flatten(1), parameters["layer" + std::to_string(layer) + ".weight"],
+                    parameters["bias" + std::to_string(layer)])
+          .squeeze(1);
   const torch::Tensor score = discriminator(grid);
   EXPECT_EQ(score.sizes(), (std::vector<std::int64_t>{3}));
   EXPECT_LT((score - x).abs().max().item<double>(), 1e-5 * (1 + x.abs().max().item<double>()));
@@ -169,12 +184,33 @@ void ExpectPlainLayers(int pack) {
 
 TEST(Discriminator, EqualsThePlainLayers) { ExpectPlainLayers(1); }
 TEST(Discriminator, EqualsThePlainLayersOnPackedShapes) { ExpectPlainLayers(4); }
+TEST(Discriminator, EqualsThePlainLayersAtOtherResolutions) {
+  ExpectPlainLayers(2, 16);
+  ExpectPlainLayers(2, 64);
+}
+
+TEST(Networks, HaveOneLayerMoreForTwiceTheResolution) {
+  ModelOptions options = TinyModel();
+  options.block = Block::kResidual;
+  for (const auto& [resolution, levels] : {std::pair(16, 2), std::pair(32, 3), std::pair(64, 4)}) {
+    options.resolution = resolution;
+    EXPECT_EQ(HiddenLevels(options), levels);
+    Generator generator(options);
+    const auto of = generator->named_parameters();
+    EXPECT_EQ(of["project.weight"].size(0), 8 * (options.width << levels));
+    EXPECT_EQ(of["last_weight"].size(0), options.width);
+    EXPECT_TRUE(of.contains("refine" + std::to_string(levels) + "_weight"));
+    EXPECT_FALSE(of.contains("refine" + std::to_string(levels + 1) + "_weight"));
+    Discriminator discriminator(options);
+    EXPECT_EQ(discriminator(generator(Latent(4, 5))).sizes(), (std::vector<std::int64_t>{4}));
+  }
+}
 
 TEST(Discriminator, AddsTheDeviationOverAPackToEveryShapesFeatures) {
   ModelOptions options = TinyModel();
   options.spectral_norm = false;
   options.pack = 4;
-  options.pack_at = "features";
+  options.pack_at = PackAt::kFeatures;
   Discriminator discriminator(options);
   const auto parameters = discriminator->named_parameters();
   const auto layer = [&](const torch::Tensor& x, int i) {
@@ -190,7 +226,9 @@ TEST(Discriminator, AddsTheDeviationOverAPackToEveryShapesFeatures) {
     deviations.push_back(pack.std(0, /*unbiased=*/false, /*keepdim=*/true).expand_as(pack));
   }
   x = layer(torch::cat({x, torch::cat(deviations)}, 1), 4);
-  x = torch::linear(x.flatten(1), parameters["layer5.weight"], parameters["bias5"]).squeeze(1);
+  x = torch::linear(x.flatten(1), parameters["layer" + std::to_string(layer) + ".weight"],
+                    parameters["bias" + std::to_string(layer)])
+          .squeeze(1);
   const torch::Tensor score = discriminator(grid);
   EXPECT_EQ(score.sizes(), (std::vector<std::int64_t>{8}));
   EXPECT_LT((score - x).abs().max().item<double>(), 1e-4 * (1 + x.abs().max().item<double>()));
@@ -206,7 +244,7 @@ TEST(Discriminator, MayBeWiderThanTheGenerator) {
 
 TEST(ResidualBlocks, BeginAsASmallChangeAndReachEveryParameter) {
   ModelOptions options = TinyModel();
-  options.block = "residual";
+  options.block = Block::kResidual;
   Generator generator(options);
   Discriminator discriminator(options);
   generator->train();
@@ -238,7 +276,7 @@ TEST(Networks, InBfloat16DifferFromFloatByItsRounding) {
   ModelOptions model = TinyModel();
   Generator exact(model);
   Discriminator exact_judge(model);
-  model.precision = "bfloat16";
+  model.precision = Precision::kBfloat16;
   Generator rounded(model);
   Discriminator rounded_judge(model);
   torch::Tensor z = Latent(4, model.latent);
@@ -282,7 +320,7 @@ TEST(SdfValues, TruncationClampsAndComesBack) {
 TEST(SdfValues, TanhIsSmoothAndComesBackFurtherOut) {
   ModelOptions options;
   options.truncation = 0.1;
-  options.squash = "tanh";
+  options.squash = Squash::kTanh;
   EXPECT_NEAR(LargestDistance(options), 0.495, 0.001);
   const torch::Tensor distances = torch::tensor({-0.7, -0.3, -0.05, 0.0, 0.025, 0.3});
   const torch::Tensor values = NetworkValues(distances, options);
@@ -307,7 +345,12 @@ TEST(ModelOptions, RefuseValuesOutOfRange) {
   table.ApplyOverride("model.width=16");
   EXPECT_EQ(options.width, 16);
   EXPECT_THROW(table.ApplyOverride("model.width=0"), InputError);
-  EXPECT_THROW(table.ApplyOverride("model.resolution=64"), InputError);
+  EXPECT_THROW(table.ApplyOverride("model.resolution=8"), InputError);
+  EXPECT_THROW(table.ApplyOverride("model.resolution=256"), InputError);
+  options.resolution = 48;
+  EXPECT_THROW(CheckResolution(options, "x"), InputError);
+  options.resolution = 64;
+  EXPECT_NO_THROW(CheckResolution(options, "x"));
   EXPECT_THROW(table.ApplyOverride("model.truncation=-0.1"), InputError);
 }
 

@@ -101,7 +101,7 @@ TEST(SdfValues, LargestDistanceIsThatOfTheLargestValue) {
   options.truncation = 0.0;
   options.raw_scale = 2.0;
   EXPECT_DOUBLE_EQ(LargestDistance(options), 0.5);
-  options.squash = "tanh";
+  options.squash = Squash::kTanh;
   EXPECT_NEAR(LargestDistance(options), 0.5 * std::atanh(0.9999), 1e-12);
   const torch::Tensor inside = torch::tensor({0.25F});  // positive stays positive
   EXPECT_NEAR(NetworkValues(inside, options).item<double>(), std::tanh(0.5), 1e-6);
@@ -125,14 +125,14 @@ TEST(ModelOptions, EachNameSetsItsOwnField) {
   EXPECT_FALSE(options.spectral_norm);
   EXPECT_TRUE(options.batch_norm && options.output_blur);
   EXPECT_EQ(options.pack, 5);
-  EXPECT_EQ(options.pack_at, "features");
+  EXPECT_EQ(options.pack_at, PackAt::kFeatures);
   EXPECT_EQ(options.width_d, 6);
-  EXPECT_EQ(options.block, "residual_generator");
+  EXPECT_EQ(options.block, Block::kResidualGenerator);
   EXPECT_EQ(options.edge_gain, 0.7);
-  EXPECT_EQ(options.squash, "tanh");
+  EXPECT_EQ(options.squash, Squash::kTanh);
   EXPECT_EQ(options.truncation, 0.8);
   EXPECT_EQ(options.raw_scale, 0.9);
-  EXPECT_EQ(options.precision, "bfloat16");
+  EXPECT_EQ(options.precision, Precision::kBfloat16);
   table.ApplyOverride("model.batch_norm=false");
   EXPECT_TRUE(!options.batch_norm && options.output_blur);
   table.ApplyOverride("model.output_blur=false");

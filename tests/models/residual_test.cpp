@@ -17,7 +17,7 @@ ModelOptions Residual() {
   ModelOptions options;
   options.width = 2;
   options.latent = 5;
-  options.block = "residual";
+  options.block = Block::kResidual;
   options.output_blur = options.spectral_norm = false;
   return options;
 }
@@ -85,7 +85,7 @@ TEST(ResidualBlocks, OfTheGeneratorAddANormalisedConvolutionBeforeTheCut) {
 
 TEST(ResidualBlocks, MayBeTheGeneratorsAlone) {
   ModelOptions options = Residual();
-  options.block = "residual_generator";
+  options.block = Block::kResidualGenerator;
   EXPECT_EQ(Discriminator(options)->parameters().size(), 10U);
   EXPECT_EQ(Generator(options)->parameters().size(), 1U + 3 + 2 + 8 + 3 * 3);
 }
@@ -110,7 +110,7 @@ TEST(Discriminator, LargestSigmaIsThatOfTheLargestWeightResidualOnesIncluded) {
 
 TEST(Generator, FoldingKeepsTheEpsilonOfSmallVariances) {
   ModelOptions options = Residual();
-  options.block = "plain";
+  options.block = Block::kPlain;
   Generator with(options);
   {
     torch::NoGradGuard no_grad;

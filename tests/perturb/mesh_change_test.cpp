@@ -11,9 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(MeshSimilarity, AMeshIsLikeItself) {
+TEST(MeshChange, AMeshIsLikeItself) {
   const TriangleMesh mesh = shapes::Torus(1.0, 0.4, 24, 12);
-  const MeshSimilarity same = CompareMeshes(mesh, mesh);
+  const MeshChange same = CompareMeshes(mesh, mesh);
   EXPECT_EQ(CompareNormals(mesh, mesh).largest, 0.0);
   EXPECT_NEAR(same.hausdorff, 0.0, 1e-12);
   EXPECT_NEAR(same.chamfer, 0.0, 1e-12);
@@ -21,9 +21,9 @@ TEST(MeshSimilarity, AMeshIsLikeItself) {
   EXPECT_EQ(same.center_of_mass, 0.0);
 }
 
-TEST(MeshSimilarity, OfAGrownBallIsTheDifferenceOfTheRadii) {
+TEST(MeshChange, OfAGrownBallIsTheDifferenceOfTheRadii) {
   const TriangleMesh ball = shapes::Sphere(1.0, 4), grown = shapes::Sphere(1.02, 4);
-  const MeshSimilarity s = CompareMeshes(ball, grown);
+  const MeshChange s = CompareMeshes(ball, grown);
   const double percent = 100.0 / Bounds(ball).Extent().norm();
   EXPECT_NEAR(s.hausdorff, 0.02 * percent, 0.02 * 0.01 * percent);
   EXPECT_NEAR(s.chamfer, 0.02 * percent, 0.02 * 0.01 * percent);
@@ -32,13 +32,13 @@ TEST(MeshSimilarity, OfAGrownBallIsTheDifferenceOfTheRadii) {
   EXPECT_NEAR(s.center_of_mass, 0.0, 1e-9);
 }
 
-TEST(MeshSimilarity, OfABoxWithAMovedCornerIsKnown) {
+TEST(MeshChange, OfABoxWithAMovedCornerIsKnown) {
   const TriangleMesh box = shapes::Box({1, 1, 1});
   TriangleMesh changed = box;
   for (Vector3d& v : changed.vertices) {
     if (v.x() > 0) v.x() += 0.1;  // one side moved out
   }
-  const MeshSimilarity s = CompareMeshes(box, changed);
+  const MeshChange s = CompareMeshes(box, changed);
   const double percent = 100.0 / std::sqrt(3.0);
   EXPECT_NEAR(s.hausdorff, 0.1 * percent, 1e-9);
   EXPECT_NEAR(s.volume_change, 10.0, 1e-9);
@@ -48,7 +48,7 @@ TEST(MeshSimilarity, OfABoxWithAMovedCornerIsKnown) {
   EXPECT_LT(s.chamfer, s.hausdorff);
 }
 
-TEST(MeshSimilarity, KnowsTheAngleByWhichASideTurned) {
+TEST(MeshChange, KnowsTheAngleByWhichASideTurned) {
   const TriangleMesh box = shapes::Box({1, 1, 1});
   TriangleMesh changed = box;
   for (Vector3d& v : changed.vertices) {
@@ -59,7 +59,7 @@ TEST(MeshSimilarity, KnowsTheAngleByWhichASideTurned) {
   EXPECT_NEAR(s.mean, 0.1 * 180 / M_PI / 6, 1e-9);  // one of six sides
 }
 
-TEST(MeshSimilarity, WeighsTurnedSidesByTheFirstMeshsArea) {
+TEST(MeshChange, WeighsTurnedSidesByTheFirstMeshsArea) {
   const TriangleMesh box = shapes::Box({1, 2, 3});
   TriangleMesh changed = box;
   for (Vector3d& v : changed.vertices) {
@@ -73,7 +73,7 @@ TEST(MeshSimilarity, WeighsTurnedSidesByTheFirstMeshsArea) {
   EXPECT_NEAR(CompareNormals(changed, box).largest, 0.1 * 180 / M_PI, 1e-9);
 }
 
-TEST(MeshSimilarity, LooksFromBothSurfacesAndMeasuresByTheFirst) {
+TEST(MeshChange, LooksFromBothSurfacesAndMeasuresByTheFirst) {
   // A corner pulled out along the diagonal: the tip is sqrt(3) x 0.3 from the cube, while no point
   // of the cube is that far from the changed one.
   const TriangleMesh cube = shapes::Cube();
@@ -81,7 +81,7 @@ TEST(MeshSimilarity, LooksFromBothSurfacesAndMeasuresByTheFirst) {
   pulled.vertices[7] += Vector3d::Constant(0.3);
   ASSERT_EQ(cube.vertices[7], Vector3d::Constant(0.5));
   const double tip = 0.3 * std::sqrt(3.0), first = std::sqrt(3.0), second = 1.3 * std::sqrt(3.0);
-  const MeshSimilarity there = CompareMeshes(cube, pulled), back = CompareMeshes(pulled, cube);
+  const MeshChange there = CompareMeshes(cube, pulled), back = CompareMeshes(pulled, cube);
   EXPECT_NEAR(there.hausdorff, 100.0 * tip / first, 1e-9);
   EXPECT_NEAR(back.hausdorff, 100.0 * tip / second, 1e-9);
   EXPECT_NEAR(there.chamfer * first, back.chamfer * second, 1e-9);
@@ -93,7 +93,7 @@ TEST(MeshSimilarity, LooksFromBothSurfacesAndMeasuresByTheFirst) {
   EXPECT_NEAR(there.center_of_mass, 100.0 * CenterOfMass(pulled).norm() / first, 1e-9);
 }
 
-TEST(MeshSimilarity, TheMeanDistanceIsOfAreaSamplesOfBothSurfaces) {
+TEST(MeshChange, TheMeanDistanceIsOfAreaSamplesOfBothSurfaces) {
   // A slab of 10 x 10 x 1 whose top is moved up by 0.01: of the first surface a share of
   // 100 / 240 lies 0.01 from the second, of the second 100 / 240.4 and of what the four sides grew,
   // 0.4 / 240.4, half of that. The rest is 0.
@@ -106,11 +106,11 @@ TEST(MeshSimilarity, TheMeanDistanceIsOfAreaSamplesOfBothSurfaces) {
               0.03 * 100.0 * mean / diagonal);
 }
 
-TEST(MeshSimilarity, ComparesNoNormalsOfMeshesWithOtherFaces) {
+TEST(MeshChange, ComparesNoNormalsOfMeshesWithOtherFaces) {
   const TriangleMesh fine = shapes::Sphere(1.0, 3), coarse = shapes::Sphere(1.0, 2);
   EXPECT_TRUE(std::isnan(CompareNormals(fine, coarse).largest));
   EXPECT_TRUE(std::isnan(CompareNormals(fine, coarse).mean));
-  const MeshSimilarity s = CompareMeshes(fine, coarse);
+  const MeshChange s = CompareMeshes(fine, coarse);
   EXPECT_GT(s.hausdorff, 0.1);
   EXPECT_LT(s.hausdorff, 1.0);
 }

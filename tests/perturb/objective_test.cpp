@@ -104,7 +104,7 @@ TEST(AttackGrasps, ReachFallsWithTheDistanceFromTheCentreOfMassAndFacesAreOfThei
   const TriangleMesh box = shapes::Box({0.1, 0.04, 0.1});
   MetricOptions metric;
   metric.torque_scale = 50.0;
-  metric.collision = "jaws";
+  metric.collision = Collision::kJaws;
   ObjectiveOptions options;
   options.grasps = 40;
   options.draws = 3;
@@ -141,7 +141,7 @@ TEST(AttackGrasps, ReachFallsWithTheDistanceFromTheCentreOfMassAndFacesAreOfThei
 TEST(AttackGrasps, AreSampledBeyondTheFrictionConeByTheGivenTangent) {
   MetricOptions metric;
   metric.friction = 0.3;
-  metric.collision = "jaws";
+  metric.collision = Collision::kJaws;
   ObjectiveOptions options;
   options.grasps = 200;
   options.draws = 1;

@@ -14,9 +14,9 @@ namespace {
 TEST(PairSampler, DrawsOnlyAntipodalPairsHoweverItDraws) {
   RngStream rng(1, "sampler");
   const EditableMesh mesh(shapes::Torus(1.0, 0.4, 24, 12));
-  for (const char* name : {"uniform", "area", "ray"}) {
+  for (const PairDraw draw : {PairDraw::kUniform, PairDraw::kArea, PairDraw::kRay}) {
     const PairLimits limits{0.4, 1.0};
-    const PairSampler sampler(mesh, limits, PairDrawOf(name));
+    const PairSampler sampler(mesh, limits, draw);
     for (int i = 0; i < 300; ++i) {
       const auto pair = sampler.Draw(&rng);
       ASSERT_TRUE(pair);
@@ -95,8 +95,8 @@ TEST(PairSampler, ARayLeavesThroughTheFaceItNames) {
 TEST(PairSampler, FollowsAMovedMeshAndKnowsWhenThereIsNoPair) {
   RngStream rng(4, "sampler");
   const EditableMesh tetrahedron(shapes::RegularTetrahedron());
-  for (const char* name : {"uniform", "area", "ray"}) {
-    EXPECT_FALSE(PairSampler(tetrahedron, {}, PairDrawOf(name)).Draw(&rng));
+  for (const PairDraw draw : {PairDraw::kUniform, PairDraw::kArea, PairDraw::kRay}) {
+    EXPECT_FALSE(PairSampler(tetrahedron, {}, draw).Draw(&rng));
   }
   EXPECT_FALSE(PairSampler(EditableMesh({}), {}, PairDraw::kArea).Draw(&rng));
   EditableMesh mesh(shapes::Box({1, 1, 1}));

@@ -84,16 +84,16 @@ TEST(BestStep, IsBetterThanEveryOtherStepInTheRange) {
 TEST(PerturbRandomly, KeepsEveryNormalWithinAlphaAndLowersTheNumberOfPairs) {
   const TriangleMesh mesh = shapes::Cylinder(1.0, 3.0, 48);
   for (const double alpha : {10.0, 20.0}) {
-    for (const char* step : {"smallest", "smallest_or_none", "largest_angle", "largest"}) {
+    for (const Choice<StepRule>& step : ChoicesOf(StepRule())) {
       RandomPerturbOptions options;
       options.alpha = alpha;
-      options.step = step;
+      options.step = step.value;
       const PerturbResult result = Perturbed(mesh, options);
       EXPECT_EQ(result.failure, "");
       EXPECT_GT(result.moved, 20);
       const double turned = CompareNormals(result.start, result.mesh).largest;
-      EXPECT_LE(turned, alpha + 1e-9) << step;
-      EXPECT_GT(turned, 0.9 * alpha) << step;
+      EXPECT_LE(turned, alpha + 1e-9) << step.name;
+      EXPECT_GT(turned, 0.9 * alpha) << step.name;
       EXPECT_EQ(WhyNotSolid(Inspect(result.mesh)), "");
     }
   }
@@ -101,7 +101,7 @@ TEST(PerturbRandomly, KeepsEveryNormalWithinAlphaAndLowersTheNumberOfPairs) {
 
 TEST(PerturbRandomly, TheLimitOfAStepLetsNormalsDriftAndTheGuardKeepsASolid) {
   RandomPerturbOptions options;
-  options.limit = "step";
+  options.limit = NormalLimit::kStep;
   options.iterations = 800;
   const TriangleMesh mesh = shapes::Sphere(1.0, 2);
   const PerturbResult guarded = Perturbed(mesh, options);
@@ -110,7 +110,7 @@ TEST(PerturbRandomly, TheLimitOfAStepLetsNormalsDriftAndTheGuardKeepsASolid) {
   PerturbOptions unguarded;
   unguarded.unchecked = true;
   options.iterations = 8000;
-  options.step = "largest";
+  options.step = StepRule::kLargest;
   EXPECT_NE(Perturbed(mesh, options, unguarded).failure, "");  // the literal algorithm breaks it
   const PerturbResult longer = Perturbed(mesh, options);
   EXPECT_EQ(longer.failure, "");

@@ -31,8 +31,8 @@ TEST(PerturbAndScore, AnUnchangedObjectScoresTheSame) {
   EXPECT_EQ(s.graspability_after, s.graspability_before);
   EXPECT_EQ(s.pairs_after, s.pairs_before);
   EXPECT_EQ(s.normals.largest, 0.0);
-  EXPECT_NEAR(s.similarity.hausdorff, 0.0, 1e-12);
-  EXPECT_EQ(s.similarity.volume_change, 0.0);
+  EXPECT_NEAR(s.change.hausdorff, 0.0, 1e-12);
+  EXPECT_EQ(s.change.volume_change, 0.0);
 }
 
 TEST(PerturbAndScore, ReportsAChangedObjectAndDependsOnItsNumber) {
@@ -47,7 +47,7 @@ TEST(PerturbAndScore, ReportsAChangedObjectAndDependsOnItsNumber) {
   EXPECT_LT(a.pairs_after, a.pairs_before);
   EXPECT_LE(a.normals.largest, 15.0);
   EXPECT_LE(a.normals.mean, a.normals.largest);
-  EXPECT_GT(a.similarity.hausdorff, a.similarity.chamfer);
+  EXPECT_GT(a.change.hausdorff, a.change.chamfer);
   EXPECT_GT(a.seconds, 0.0);
 }
 
@@ -58,7 +58,7 @@ TEST(PerturbAndScore, GivesNoNumbersForWhatIsNoSolid) {
     const ScoredPerturbation s = PerturbAndScore(mesh, Quick(10), 0);
     EXPECT_TRUE(s.result.failure.starts_with("before: "));
     EXPECT_TRUE(std::isnan(s.graspability_before));
-    EXPECT_TRUE(std::isnan(s.similarity.hausdorff));
+    EXPECT_TRUE(std::isnan(s.change.hausdorff));
     EXPECT_EQ(s.pairs_before, -1);
   }
 }
@@ -114,7 +114,7 @@ TEST(PerturbAndScore, EveryNumberIsOfItsOwnMesh) {
   EXPECT_NEAR(s.normals.mean, 0.1 * 180.0 / M_PI * 2.75 / 28.0, 1e-4);
   // Half of the tilt's height more over the whole top.
   const double volume = 1.0 * 2.75 * (3.0 + 0.5 * std::tan(0.1));
-  EXPECT_NEAR(s.similarity.volume_change, 100.0 * (volume - 6.0) / 6.0, 1e-4);
+  EXPECT_NEAR(s.change.volume_change, 100.0 * (volume - 6.0) / 6.0, 1e-4);
 }
 
 TEST(KappaReduction, DividesMeansAndNotObjectByObject) {

@@ -101,7 +101,7 @@ TEST(PerturbRandomly, HardlyAnyStepIsTakenBackBecauseItWasMeasuredByOtherNormals
   EXPECT_GT(original.moved, 100);
   EXPECT_LE(Refused(original, MoveVerdict::kTurned), original.moved / 100);
   EXPECT_LE(CompareNormals(original.start, original.mesh).largest, 10.0 + 1e-9);
-  options.limit = "step";
+  options.limit = NormalLimit::kStep;
   const PerturbResult step = Perturbed(mesh, options);
   EXPECT_GT(step.moved, 100);
   EXPECT_EQ(Refused(step, MoveVerdict::kTurned), 0);  // nothing is measured by the original
@@ -121,7 +121,7 @@ TEST(PerturbRandomly, OneStepTurnsNoFaceByMoreThanAlphaAndOneByAllOfIt) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomPerturbOptions options;
     options.alpha = 12.0;
-    options.step = "largest";
+    options.step = StepRule::kLargest;
     options.iterations = 1;
     const PerturbResult result = Perturbed(shapes::Cube(), options, seed);
     const double turned = CompareNormals(result.start, result.mesh).largest;
@@ -137,15 +137,16 @@ TEST(PerturbRandomly, TheRuleDecidesWhichOfTheSameStepsIsTaken) {
   const TriangleMesh mesh = shapes::Shaken(shapes::Sphere(1.0, 1), 0.05, &rough);
   int shorter = 0, fewer = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const auto move = [&](const char* rule) {
+    const auto move = [&](StepRule rule) {
       RandomPerturbOptions options;
       options.step = rule;
       options.iterations = 1;
       return Perturbed(mesh, options, seed);
     };
-    const double smallest = LargestMove(move("smallest")), largest = LargestMove(move("largest"));
-    const double best = LargestMove(move("largest_angle")),
-                 some = LargestMove(move("smallest_or_none"));
+    const double smallest = LargestMove(move(StepRule::kSmallest)),
+                 largest = LargestMove(move(StepRule::kLargest));
+    const double best = LargestMove(move(StepRule::kLargestAngle)),
+                 some = LargestMove(move(StepRule::kSmallestOrNone));
     EXPECT_LE(smallest, largest);
     EXPECT_LE(smallest, best);
     EXPECT_LE(best, largest);
@@ -161,7 +162,7 @@ TEST(PerturbRandomly, TheLongestStepIsInMeanEdgesAndIterationsInVertices) {
   // A cube's triangles have edges 1, 1 and sqrt 2.
   RandomPerturbOptions options;
   options.max_step = 0.01;
-  options.step = "largest";
+  options.step = StepRule::kLargest;
   options.iterations = 1;
   const double longest = 0.01 * (2.0 + std::sqrt(2.0)) / 3.0;
   EXPECT_NEAR(LargestMove(Perturbed(shapes::Cube(), options)), longest, 1e-6);
@@ -241,10 +242,10 @@ TEST(PerturbOptions, HaveThePapersDefaultsUnderTheirOwnKeys) {
   table.ApplyOverride("random.step=largest");
   table.ApplyOverride("random.pairs=area");
   table.ApplyOverride("rotation.pairs=ray");
-  EXPECT_EQ(random.limit, "step");
-  EXPECT_EQ(random.step, "largest");
-  EXPECT_EQ(random.pairs, "area");
-  EXPECT_EQ(rotation.pairs, "ray");
+  EXPECT_EQ(random.limit, NormalLimit::kStep);
+  EXPECT_EQ(random.step, StepRule::kLargest);
+  EXPECT_EQ(random.pairs, PairDraw::kArea);
+  EXPECT_EQ(rotation.pairs, PairDraw::kRay);
   EXPECT_THROW(table.ApplyOverride("random.alpha=90"), InputError);
 }
 

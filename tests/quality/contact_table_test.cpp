@@ -93,7 +93,7 @@ TEST(ContactTable, ABareTableTakesItsConstantsFromTheOptions) {
   options.cone_edges = 6;
   options.finger_radius = 0.01;
   options.torque_scale = 10.0;
-  options.torsion = "uniform_pressure";
+  options.torsion = Torsion::kUniformPressure;
   options.wrench.force_limit = 3.0;
   const ContactRow other = ReadOne("", "", options);
   EXPECT_EQ(other.model.friction, 0.25);

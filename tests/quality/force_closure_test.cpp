@@ -45,6 +45,22 @@ TEST(ForceClosure, EndsAtTheAngleWhoseTangentIsTheFriction) {
   EXPECT_FALSE(ForceClosure(Tilted(1e-15), 0.0));
 }
 
+TEST(ForceClosure, IncludesTheBorderOfTheConeAndContactsWithoutFrictionWhereEpsilonIsZero) {
+  // A line along (1, 1, 0) between normals along x: sine and cosine are the same number.
+  const std::array<Contact, 2> border = {Contact{{-0.01, -0.01, 0.0}, -Vector3d::UnitX(), 1.0},
+                                         Contact{{0.01, 0.01, 0.0}, Vector3d::UnitX(), 1.0}};
+  EXPECT_TRUE(ForceClosure(border, 1.0, NormalSense::kOutward));
+  EXPECT_FALSE(ForceClosure(border, std::nextafter(1.0, 0.0), NormalSense::kOutward));
+  WrenchModel model;
+  model.friction = 1.0;
+  EXPECT_EQ(Epsilon(border, Vector3d::Zero(), model), 0.0);
+  model.friction = 1.1;
+  EXPECT_GT(Epsilon(border, Vector3d::Zero(), model), 0.0);
+  model.friction = 0.0;
+  EXPECT_TRUE(ForceClosure(Tilted(0.0), 0.0, NormalSense::kOutward));
+  EXPECT_EQ(Epsilon(Tilted(0.0), Vector3d::Zero(), model), 0.0);
+}
+
 TEST(ForceClosure, OnlyTheOutwardSenseNoticesNormalsTheWrongWayRound) {
   auto contacts = Tilted(0.1);
   contacts[0].normal = -contacts[0].normal;

@@ -26,10 +26,10 @@ TEST(GraspQuality, IsEpsilonAboutTheMeanOfATetrahedronsCorners) {
   options.cone_edges = 6;
   options.finger_radius = 0.007;
   options.torque_scale = 300.0;
-  options.torsion = "uniform_pressure";
+  options.torsion = Torsion::kUniformPressure;
   options.object_min_extent = 0.03;
   options.jaw_opening = 0.06;
-  options.collision = "jaws";
+  options.collision = Collision::kJaws;
   const Graspability g = EvaluateGraspability(shapes::Tetrahedron(), options, 1, 0);
   EXPECT_DOUBLE_EQ(g.scale, 0.03);
   ASSERT_GT(g.grasps.size(), 20u);
@@ -51,7 +51,7 @@ TEST(GraspQuality, WeighsTorquesPerMetreOfTheRescaledObject) {
   MetricOptions small;
   ApplyNoisePreset("none", &small);
   small.num_draws = 1;
-  small.collision = "jaws";
+  small.collision = Collision::kJaws;
   MetricOptions large = small;
   large.object_min_extent *= 2.0;
   large.jaw_opening *= 2.0;

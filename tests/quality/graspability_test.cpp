@@ -208,7 +208,7 @@ TEST(Graspability, IsTheSameForTheSameSeedAndObjectAndDiffersOtherwise) {
 TEST(Graspability, EachGraspCanBeRepeatedFromTheStreamsOfItsCandidate) {
   const TriangleMesh mesh = shapes::Box({0.04, 0.06, 0.05});
   MetricOptions options;
-  options.collision = "jaws";
+  options.collision = Collision::kJaws;
   const Graspability g = EvaluateGraspability(mesh, options, 1, 5);
   const TriangleMesh scaled = Transformed(mesh, g.scale, Vector3d::Zero());
   const RayScene scene(scaled);
@@ -233,12 +233,12 @@ int Sum(const RejectedGrasps& r) {
 TEST(Graspability, AttemptsAreTheGraspsAndTheRejectedOfEveryReason) {
   for (const TriangleMesh& mesh :
        {shapes::Torus(2.0, 1.0, 24, 12), shapes::Cube(), shapes::Box({1.0, 6.0, 6.0})}) {
-    for (const char* collision : {"gripper", "jaws"}) {
+    for (const Collision collision : {Collision::kGripper, Collision::kJaws}) {
       MetricOptions options;
       options.collision = collision;
       const Graspability g = EvaluateGraspability(mesh, options, 1, 0);
       EXPECT_EQ(g.attempts, static_cast<int>(g.grasps.size()) + Sum(g.rejected));
-      EXPECT_EQ(g.rejected.Of("gripper collides") > 0, options.collision == "gripper");
+      EXPECT_EQ(g.rejected.Of("gripper collides") > 0, options.collision == Collision::kGripper);
     }
   }
 }
@@ -250,7 +250,7 @@ TEST(Graspability, TheGripperKeepsThoseOfTheJawsGraspsThatItReaches) {
   gripper.num_grasps = 4000;
   gripper.max_attempts = 200;
   MetricOptions jaws = gripper;
-  jaws.collision = "jaws";
+  jaws.collision = Collision::kJaws;
   const Graspability reached = EvaluateGraspability(mesh, gripper, 1, 0);
   const Graspability all = EvaluateGraspability(mesh, jaws, 1, 0);
   EXPECT_EQ(reached.attempts, all.attempts);
@@ -281,9 +281,9 @@ TEST(Graspability, ABallInAClosedBoxHasGraspsForTheJawsButNoneForTheGripper) {
   options.object_min_extent = 0.0;
   options.max_attempts = 3000;
   const TriangleMesh mesh = shapes::Joined(box, shapes::Sphere(0.01, 3));
-  options.collision = "jaws";
+  options.collision = Collision::kJaws;
   EXPECT_GT(EvaluateGraspability(mesh, options, 1, 0).value, 0.0);
-  options.collision = "gripper";
+  options.collision = Collision::kGripper;
   const Graspability g = EvaluateGraspability(mesh, options, 1, 0);
   for (const ScoredGrasp& scored : g.grasps) EXPECT_GT(scored.grasp.center.norm(), 0.05);
   EXPECT_GT(g.rejected.Of("gripper collides"), 5);

@@ -10,10 +10,26 @@ namespace {
 
 // Every field different from its default.
 MetricOptions Unusual() {
-  return {0.37,  6,    0.004, 900.0,  "none",
-          0.03,  0.06, 11,    12,     13,
-          2e-3,  60.0, true,  0.001,  0.02,
-          0.003, 0.04, 0.05,  "jaws", {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 9}};
+  return {0.37,
+          6,
+          0.004,
+          900.0,
+          Torsion::kNone,
+          0.03,
+          0.06,
+          11,
+          12,
+          13,
+          2e-3,
+          60.0,
+          true,
+          0.001,
+          0.02,
+          0.003,
+          0.04,
+          0.05,
+          Collision::kJaws,
+          {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 9}};
 }
 
 void ExpectEqual(const MetricOptions& a, const MetricOptions& b) {
@@ -121,18 +137,57 @@ TEST(MetricPreset, EachIsTheseNumbers) {
   const GripperModel yumi{0.046, 0.010, 0.020, 0.010, 0.084, 0.080, 0.050, 0.100, 16};
   MetricOptions options;
   ApplyMetricPreset("dexnet", &options);
-  ExpectEqual(options, {0.5,  8,    0.005, 1000.0, "dexnet", 0.040, 0.05,  25,  25,     4000,
-                        1e-4, 75.0, false, 0.01,   0.01,     0.005, 0.001, 0.1, "jaws", yumi});
+  ExpectEqual(options, {0.5,
+                        8,
+                        0.005,
+                        1000.0,
+                        Torsion::kDexNet,
+                        0.040,
+                        0.05,
+                        25,
+                        25,
+                        4000,
+                        1e-4,
+                        75.0,
+                        false,
+                        0.01,
+                        0.01,
+                        0.005,
+                        0.001,
+                        0.1,
+                        Collision::kJaws,
+                        yumi});
   ApplyMetricPreset("egad", &options);
-  ExpectEqual(options, {0.5,  8,    0.005, 100.0, "dexnet", 0.040, 0.05, 100, 1,      4000,
-                        1e-4, 75.0, false, 0.0,   0.0,      0.0,   0.0,  0.0, "jaws", yumi});
+  ExpectEqual(
+      options,
+      {0.5, 8,   0.005, 100.0, Torsion::kDexNet, 0.040, 0.05, 100, 1, 4000, 1e-4, 75.0, false, 0.0,
+       0.0, 0.0, 0.0,   0.0,   Collision::kJaws, yumi});
   ApplyMetricPreset("default", &options);
-  ExpectEqual(options, {0.5,  8,    0.005, 1000.0, "dexnet", 0.040,   0.05,  100, 25,        4000,
-                        1e-4, 75.0, false, 0.0025, 0.01,     0.00125, 0.001, 0.1, "gripper", yumi});
+  ExpectEqual(options, {0.5,
+                        8,
+                        0.005,
+                        1000.0,
+                        Torsion::kDexNet,
+                        0.040,
+                        0.05,
+                        100,
+                        25,
+                        4000,
+                        1e-4,
+                        75.0,
+                        false,
+                        0.0025,
+                        0.01,
+                        0.00125,
+                        0.001,
+                        0.1,
+                        Collision::kGripper,
+                        yumi});
 }
 
 TEST(MetricPreset, SetsEveryConstantWhateverWasThere) {
-  for (const char* name : {"default", "dexnet", "egad"}) {
+  EXPECT_EQ(MetricPresetNames(), (std::vector<std::string>{"default", "dexnet", "egad"}));
+  for (const std::string& name : MetricPresetNames()) {
     MetricOptions a, b = Unusual();
     ApplyMetricPreset(name, &a);
     ApplyMetricPreset(name, &b);
@@ -156,7 +211,7 @@ TEST(MetricPreset, DexNetHasItsConfigurationsConstants) {
   EXPECT_EQ(options.grasp_translation_std, 0.005);
   EXPECT_EQ(options.grasp_rotation_std, 0.001);
   EXPECT_EQ(options.friction_std, 0.1);
-  EXPECT_EQ(options.collision, "jaws");
+  EXPECT_EQ(options.collision, Collision::kJaws);
 }
 
 TEST(MetricPreset, EgadIsWithoutNoiseAndHasATenthOfTheTorqueScale) {
@@ -165,7 +220,7 @@ TEST(MetricPreset, EgadIsWithoutNoiseAndHasATenthOfTheTorqueScale) {
   EXPECT_EQ(options.torque_scale, 100.0);
   EXPECT_EQ(options.num_grasps, 100);
   EXPECT_EQ(options.num_draws, 1);
-  EXPECT_EQ(options.collision, "jaws");
+  EXPECT_EQ(options.collision, Collision::kJaws);
   EXPECT_EQ(options.percentile, 75.0);
   EXPECT_EQ(options.object_translation_std, 0.0);
   EXPECT_EQ(options.object_rotation_std, 0.0);

@@ -169,18 +169,18 @@ TEST(ExecutedQuality, IsThatOfTheTorsionModelOnACube) {
   const RayScene scene(shapes::Box({0.04, 0.04, 0.04}));
   Grasp grasp;  // along x through the origin
   MetricOptions options;
-  const auto quality = [&](const char* torsion) {
+  const auto quality = [&](Torsion torsion) {
     options.torsion = torsion;
     return ExecutedQuality(scene, Vector3d::Zero(), grasp, options, {});
   };
   const double half = 1.0 / (0.5 * std::cos(std::numbers::pi / 8.0));
   const double rest = 1.0 + (1.0 + 1.0 / 400.0) * half * half;
   const auto expected = [rest](double t) { return 1.0 / std::sqrt(1.0 / (t * t) + rest); };
-  EXPECT_EQ(quality("none"), 0.0);
-  EXPECT_NEAR(quality("dexnet"), expected(0.0125 * std::numbers::pi), 1e-9);
-  EXPECT_NEAR(quality("dexnet"), 0.0390985, 1e-7);
-  EXPECT_NEAR(quality("uniform_pressure"), expected(5.0 / 3.0), 1e-9);
-  EXPECT_NEAR(quality("uniform_pressure"), 0.4062890, 1e-7);
+  EXPECT_EQ(quality(Torsion::kNone), 0.0);
+  EXPECT_NEAR(quality(Torsion::kDexNet), expected(0.0125 * std::numbers::pi), 1e-9);
+  EXPECT_NEAR(quality(Torsion::kDexNet), 0.0390985, 1e-7);
+  EXPECT_NEAR(quality(Torsion::kUniformPressure), expected(5.0 / 3.0), 1e-9);
+  EXPECT_NEAR(quality(Torsion::kUniformPressure), 0.4062890, 1e-7);
 }
 
 TEST(ExecutedQuality, OpensTheJawsAsWideAsTheOptionsSay) {

@@ -170,7 +170,7 @@ TEST(TableReach, OpensTheGripperAsWideAsTheMetricSays) {
 
 TEST(TableReach, LooksAtTheConeAloneWithoutAGripper) {
   Standing box({0.03, 0.03, 0.04});
-  box.metric.collision = "jaws";
+  box.metric.collision = Collision::kJaws;
   EXPECT_TRUE(box.Approach(Along(Vector3d::UnitX(), {0, 0, -0.019})).has_value());
   EXPECT_FALSE(box.Approach(Along(Tilted(46), Vector3d::Zero())).has_value());
 }

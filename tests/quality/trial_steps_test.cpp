@@ -109,7 +109,7 @@ MetricOptions UnusualMetric() {
   MetricOptions metric;
   metric.friction = 0.4;
   metric.cone_edges = 5;
-  metric.torsion = "uniform_pressure";
+  metric.torsion = Torsion::kUniformPressure;
   metric.finger_radius = 0.0003;  // torsion 2/3 r mu by the torque scale: 0.016
   metric.torque_scale = 200.0;
   metric.object_min_extent = 0.042;
@@ -160,7 +160,7 @@ TEST(RunTrials, DrawEachStablePoseByItsProbability) {
   MetricOptions metric;
   metric.num_grasps = 8;
   metric.num_draws = 1;
-  metric.collision = "jaws";  // the cone alone counts
+  metric.collision = Collision::kJaws;  // the cone alone counts
   TrialOptions options;
   options.series = 400;
   options.grasps_per_series = 1;
@@ -196,8 +196,8 @@ TEST(TrialOptions, EveryKeyIsBoundToItsFieldAndEveryDefaultIsItsNumber) {
 }
 
 TEST(FrictionReading, EachHasItsOwnName) {
-  EXPECT_EQ(Name(FrictionReading::kHalfAngle), "half-angle");
-  EXPECT_EQ(Name(FrictionReading::kFullCone), "full-cone");
+  EXPECT_EQ(ChoiceName(FrictionReading::kHalfAngle), "half-angle");
+  EXPECT_EQ(ChoiceName(FrictionReading::kFullCone), "full-cone");
 }
 
 TEST(ShareOfSeries, TakesTheSpreadOfASampleOverTheSeries) {

@@ -28,7 +28,7 @@ std::vector<std::int64_t> PlaceOf(const torch::Tensor& grid) {
 TEST(Augment, NoneReturnsTheBatchAndDrawsNothing) {
   RngStream rng(1, "augment"), untouched(1, "augment");
   const torch::Tensor folded = Fold(TwoPoints());
-  EXPECT_TRUE(torch::equal(Augment(folded, "none", &rng), folded));
+  EXPECT_TRUE(torch::equal(Augment(folded, Augmentation::kNone, &rng), folded));
   EXPECT_EQ(rng.NextU64(), untouched.NextU64());
 }
 
@@ -36,7 +36,7 @@ TEST(Augment, MovesEveryShapeOfTheBatchAlikeAndNoFurtherThanTheLargestShift) {
   RngStream rng(1, "augment");
   std::set<std::vector<std::int64_t>> places;
   for (int draw = 0; draw < 50; ++draw) {
-    const torch::Tensor moved = Unfold(Augment(Fold(TwoPoints()), "shifts", &rng));
+    const torch::Tensor moved = Unfold(Augment(Fold(TwoPoints()), Augmentation::kShifts, &rng));
     const std::vector<std::int64_t> a = PlaceOf(moved[0]), b = PlaceOf(moved[1]);
     EXPECT_EQ(moved.sum().item<float>(), TwoPoints().sum().item<float>());
     EXPECT_EQ(b, (std::vector<std::int64_t>{a[0] + 1, a[1], a[2] + 1}));
@@ -52,7 +52,7 @@ TEST(Augment, MirrorsAboutTheMiddleOfTheGrid) {
   RngStream rng(1, "augment");
   std::set<std::vector<std::int64_t>> places;
   for (int draw = 0; draw < 100; ++draw) {
-    places.insert(PlaceOf(Unfold(Augment(Fold(TwoPoints()), "flips", &rng))[0]));
+    places.insert(PlaceOf(Unfold(Augment(Fold(TwoPoints()), Augmentation::kFlips, &rng))[0]));
   }
   EXPECT_EQ(places.size(), 8U);
   EXPECT_TRUE(places.count({21, 19, 17}));
@@ -62,9 +62,10 @@ TEST(Augment, PassesTheGradientToWhereTheShapeCameFrom) {
   RngStream rng(3, "augment"), same(3, "augment");
   const torch::Tensor weights = torch::randn({2, 1, 32, 32, 32});
   const torch::Tensor grid = TwoPoints().requires_grad_();
-  (Unfold(Augment(Fold(grid), "shifts_and_flips", &rng)) * weights).sum().backward();
+  (Unfold(Augment(Fold(grid), Augmentation::kShiftsAndFlips, &rng)) * weights).sum().backward();
   // d/dgrid sum(w . shifted(grid)) at a node is the weight of the place it went to.
-  const torch::Tensor moved = Unfold(Augment(Fold(TwoPoints()), "shifts_and_flips", &same));
+  const torch::Tensor moved =
+      Unfold(Augment(Fold(TwoPoints()), Augmentation::kShiftsAndFlips, &same));
   const std::vector<std::int64_t> to = PlaceOf(moved[0]);
   EXPECT_EQ(grid.grad()[0][0][10][12][14].item<float>(),
             weights[0][0][to[0]][to[1]][to[2]].item<float>());
@@ -84,7 +85,7 @@ TEST(Augment, ShiftsEachAxisByItselfByUpToThreeAndRepeatsTheBorder) {
   std::array<std::map<std::int64_t, int>, 3> shifts;
   std::set<std::vector<std::int64_t>> together;
   for (int draw = 0; draw < 140; ++draw) {
-    const torch::Tensor moved = Unfold(Augment(Fold(Rulers()), "shifts", &rng));
+    const torch::Tensor moved = Unfold(Augment(Fold(Rulers()), Augmentation::kShifts, &rng));
     std::vector<std::int64_t> shift;
     for (std::int64_t axis = 0; axis < 3; ++axis) {
       shift.push_back(moved[axis][0][16][16][16].item<std::int64_t>() - 16);
@@ -106,7 +107,7 @@ TEST(Augment, MirrorsEachAxisHalfTheTime) {
   RngStream rng(1, "augment");
   std::map<std::vector<bool>, int> times;
   for (int draw = 0; draw < 160; ++draw) {
-    const torch::Tensor moved = Unfold(Augment(Fold(Rulers()), "flips", &rng));
+    const torch::Tensor moved = Unfold(Augment(Fold(Rulers()), Augmentation::kFlips, &rng));
     std::vector<bool> mirrored;
     for (std::int64_t axis = 0; axis < 3; ++axis) {
       mirrored.push_back(moved[axis][0][0][0][0].item<float>() == 31.0F);

@@ -11,6 +11,7 @@
 #include "antigrasp/train/cem_run.h"
 #include "antigrasp/train/elites.h"
 #include "antigrasp/train/episode_loop.h"
+#include "antigrasp/train/sample_name.h"
 #include "tests/support/csv_rows.h"
 #include "tests/support/temp_folder.h"
 #include "tests/train/tiny_run.h"
@@ -34,12 +35,11 @@ std::vector<double> ScoresOf(const RunFolder& run, int episode) {
   return scores;
 }
 
-// By the names in elites.h5: "sample-12".
+// By the names in elites.h5.
 std::vector<std::int64_t> ElitesOf(const RunFolder& run, int episode) {
   std::vector<std::int64_t> elites;
   for (const std::string& name : ReadShapeNames(run.Episode(episode) / "elites.h5")) {
-    EXPECT_TRUE(name.starts_with("sample-")) << name;
-    elites.push_back(std::stol(name.substr(7)));
+    elites.push_back(SampleIndex(name).value());
   }
   return elites;
 }
@@ -60,8 +60,8 @@ TEST(CemRun, SelectionKeepsLowerScoresThanTheControl) {
   config.cem.episodes = 1;
   const RunResult result = StartRun(config, folder / "run", &observer);
   const RunFolder run{folder / "run"}, control{run.Control()};
-  EXPECT_EQ(ConfigOfRun(run.root).cem.select, "graspability");
-  EXPECT_EQ(ConfigOfRun(control.root).cem.select, "random");
+  EXPECT_EQ(ConfigOfRun(run.root).cem.select, EliteOrder::kGraspability);
+  EXPECT_EQ(ConfigOfRun(control.root).cem.select, EliteOrder::kRandom);
   EXPECT_FALSE(ConfigOfRun(control.root).cem.control);
   ASSERT_EQ(result.stages.size(), 3U);
   ASSERT_EQ(result.control.size(), 3U);
@@ -84,7 +84,7 @@ TEST(CemRun, SelectionKeepsLowerScoresThanTheControl) {
 
 RunConfig Latent() {
   RunConfig config = Tiny();
-  config.cem.mode = "latent";
+  config.cem.mode = EpisodeMode::kLatent;
   return config;
 }
 

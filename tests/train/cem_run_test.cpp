@@ -125,7 +125,7 @@ TEST(CemRun, ReportsAFinishedRunWithoutDoingItAgain) {
 
 RunConfig Latent() {
   RunConfig config = Tiny();
-  config.cem.mode = "latent";
+  config.cem.mode = EpisodeMode::kLatent;
   return config;
 }
 
@@ -144,7 +144,7 @@ TEST(CemRun, StratifiedElitesGiveEqualBytesTwice) {
   const TempFolder folder;
   StoppingObserver observer;
   RunConfig config = Tiny();
-  config.cem.variant = "stratified";
+  config.cem.variant = EliteRule::kStratified;
   config.cem.cells = 3;
   config.cem.episodes = 1;
   config.gan.later_rate = 0.5;

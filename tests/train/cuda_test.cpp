@@ -15,7 +15,7 @@ ModelOptions SmallModel() {
   ModelOptions options;
   options.latent = 16;
   options.pack = 4;
-  options.pack_at = "features";
+  options.pack_at = PackAt::kFeatures;
   options.edge_gain = 1.0;
   return options;
 }

@@ -26,8 +26,8 @@ TEST(GanOptions, EachNameSetsItsOwnField) {
   EXPECT_EQ(options.beta1, 0.04);
   EXPECT_EQ(options.beta2, 0.05);
   EXPECT_EQ(options.lr_decay_fraction, 0.06);
-  EXPECT_EQ(options.symmetries, "around_z");
-  EXPECT_EQ(options.augment, "flips");
+  EXPECT_EQ(options.symmetries, Symmetries::kAroundZ);
+  EXPECT_EQ(options.augment, Augmentation::kFlips);
   EXPECT_EQ(options.ema, 0.07);
   EXPECT_EQ(table.options().size(), 11U);
 }

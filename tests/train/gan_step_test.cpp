@@ -196,8 +196,8 @@ std::pair<Generator, Discriminator> NetworksApart(const ModelOptions& model, con
 
 TEST(GanStep, DrawsFromTheStreamOfItsSeedEpisodeAndStepAndShowsBothHalvesAlike) {
   GanOptions options = StillOptions();
-  options.augment = "shifts_and_flips";
-  options.symmetries = "around_z_and_up";
+  options.augment = Augmentation::kShiftsAndFlips;
+  options.symmetries = Symmetries::kAroundZAndUp;
   const ModelOptions model = PlainModel();
   GanTrainer trainer(model, options, 5, torch::kCPU);
   trainer.BeginEpisode(2, 10, true);
@@ -214,7 +214,8 @@ TEST(GanStep, DrawsFromTheStreamOfItsSeedEpisodeAndStepAndShowsBothHalvesAlike) 
     RngStream rng(5, "gan", 2, step);
     std::vector<torch::Tensor> chosen;
     for (int i = 0; i < 4; ++i) chosen.push_back(shapes[static_cast<std::int64_t>(rng.Below(7))]);
-    const torch::Tensor real = RandomSymmetries(torch::stack(chosen), "around_z_and_up", &rng);
+    const torch::Tensor real =
+        RandomSymmetries(torch::stack(chosen), Symmetries::kAroundZAndUp, &rng);
     const torch::Tensor generated = generator->ForwardFolded(NormalTensor({4, 3}, 1.0, &rng));
     const torch::Tensor scores = discriminator->ForwardFolded(
         Augment(torch::cat({Fold(real), generated}), options.augment, &rng));

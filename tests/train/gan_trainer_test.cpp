@@ -248,7 +248,8 @@ TEST(GanTrainer, LaterEpisodesTrainAtTheirOwnRate) {
 }
 
 TEST(GanTrainer, EveryKindOfAugmentationTrains) {
-  for (const char* kind : {"flips", "shifts", "shifts_and_flips"}) {
+  for (const Augmentation kind :
+       {Augmentation::kFlips, Augmentation::kShifts, Augmentation::kShiftsAndFlips}) {
     GanOptions options = TinyGan();
     options.augment = kind;
     ModelOptions model = TinyModel();
@@ -257,7 +258,7 @@ TEST(GanTrainer, EveryKindOfAugmentationTrains) {
     trainer.BeginEpisode(0, 2, true);
     trainer.Step(Spheres(4));
     trainer.Step(Spheres(4));
-    EXPECT_TRUE(trainer.Sample(1, 0, 4).isfinite().all().item<bool>()) << kind;
+    EXPECT_TRUE(trainer.Sample(1, 0, 4).isfinite().all().item<bool>()) << ChoiceName(kind);
   }
 }
 

@@ -18,7 +18,7 @@ TEST(RunConfig, ReadsItsOwnDump) {
   config.cem.keep = 7;
   config.prior.kind = "bottles";
   config.metric.friction = 1.0 / 3;
-  config.metric.collision = "jaws";
+  config.metric.collision = Collision::kJaws;
   config.metric.gripper.finger_width = 0.015;
   const std::string toml = ToToml(config);
   EXPECT_EQ(ToToml(FromToml(toml, "x")), toml);
@@ -71,16 +71,16 @@ TEST(RunConfig, BindsEveryKeyToItsOwnField) {
   EXPECT_EQ(config.prior.kind, "prisms");
   EXPECT_EQ(config.prior.count, 17);
   EXPECT_EQ(config.prior.seed, 102U);
-  EXPECT_EQ(config.cem.mode, "latent");
+  EXPECT_EQ(config.cem.mode, EpisodeMode::kLatent);
   EXPECT_EQ(config.cem.episodes, 6);
   EXPECT_EQ(config.cem.prior_iterations, 7);
   EXPECT_EQ(config.cem.iterations, 8);
   EXPECT_EQ(config.cem.samples, 90);
   EXPECT_EQ(config.cem.keep, 9);
-  EXPECT_EQ(config.cem.variant, "stratified");
+  EXPECT_EQ(config.cem.variant, EliteRule::kStratified);
   EXPECT_EQ(config.cem.cells, 11);
   EXPECT_EQ(config.cem.step, 0.25);
-  EXPECT_EQ(config.cem.select, "random");
+  EXPECT_EQ(config.cem.select, EliteOrder::kRandom);
   EXPECT_EQ(config.cem.prior_fraction, 0.75);
   EXPECT_EQ(config.cem.prior_scored, 13);
   EXPECT_EQ(config.cem.compared, 14);
@@ -163,6 +163,17 @@ TEST(RunConfig, RefusesToKeepMoreThanItSamples) {
   config.cem.samples = 10;
   config.cem.keep = 11;
   EXPECT_THROW(Validate(config, "x"), InputError);
+}
+
+TEST(RunConfig, RefusesAResolutionThatLayersCannotHalve) {
+  RunConfig config;
+  for (const int resolution : {16, 32, 64, 128}) {
+    config.model.resolution = resolution;
+    EXPECT_NO_THROW(Validate(config, "x")) << resolution;
+  }
+  config.model.resolution = 48;
+  EXPECT_THROW(Validate(config, "x"), InputError);
+  EXPECT_THROW(NetworksFromToml("[model]\nresolution = 48\n", "x"), InputError);
 }
 
 TEST(RunConfig, RefusesABatchThatIsNoWholeNumberOfPacks) {

@@ -11,6 +11,7 @@
 #include "antigrasp/core/rng.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/train/gan_model.h"
+#include "antigrasp/train/sample_name.h"
 #include "tests/support/csv_rows.h"
 #include "tests/support/shapes.h"
 
@@ -125,11 +126,11 @@ TEST(WriteElites, KeepsTheirNumbersTheirGridsAndHowTheyWereChosen) {
   EXPECT_EQ(set.seed, 5U);
   EXPECT_EQ(set.truncation, 0.1);
   EXPECT_EQ(set.provenance, "antigrasp train, episode 2, least graspable samples");
-  EXPECT_EQ(set.names, (std::vector<std::string>{"sample-1", "sample-3"}));
+  EXPECT_EQ(set.names, (std::vector<std::string>{"sample-000001", "sample-000003"}));
   const std::size_t node = set.grids[0].Index(1, 2, 3);
   EXPECT_NEAR(set.grids[0].values[node], 0.02F, 1e-7);  // 0.2 and 0.4 of the truncation
   EXPECT_NEAR(set.grids[1].values[node], 0.04F, 1e-7);
-  config.cem.select = "random";
+  config.cem.select = EliteOrder::kRandom;
   WriteElites(folder / "elites.h5", scored, {1, 3}, 2, config);
   EXPECT_EQ(ReadShapeSet(folder / "elites.h5").provenance,
             "antigrasp train, episode 2, random samples");
@@ -160,7 +161,7 @@ TEST(ExportLeastGraspable, WritesTheHardestFirstAtTheAskedSize) {
   for (std::size_t i = 0; i < 2; ++i) {
     auto row = rows[i];
     EXPECT_EQ(row["file"], i == 0 ? "adversarial_01.stl" : "adversarial_02.stl");
-    EXPECT_EQ(row["object"], i == 0 ? "2" : "1");
+    EXPECT_EQ(row["object"], i == 0 ? "sample-000002" : "sample-000001");
     EXPECT_EQ(row["graspability"], i == 0 ? "0.1" : "0.2");
     EXPECT_EQ(row["size_mm"], "50");
     const Eigen::Vector3d extent = Bounds(ReadMesh(run.Stl() / row["file"])).Extent();
@@ -181,7 +182,7 @@ TEST(ExportLeastGraspable, ScoresAgainWithDrawsThatNobodySelectedBy) {
   ExportLeastGraspable(scored, config, run);
   const std::uint64_t fresh = RngStream(3, "rescore").NextU64();
   for (auto row : CsvRows(run.Stl() / "scores.csv")) {
-    const auto object = std::stoul(row["object"]);
+    const auto object = static_cast<std::uint64_t>(SampleIndex(row["object"]).value());
     const TriangleMesh& mesh = scored.objects[object].mesh;
     const Graspability again = EvaluateGraspability(mesh, config.metric, fresh, object);
     const double score = std::stod(row["graspability_fresh_draws"]);

@@ -57,7 +57,7 @@ torch::Tensor ValuesOf(const SdfGrid& grid) {
   return NetworkValuesOf(set, ModelOptions(), "");
 }
 
-RunConfig Config(const std::string& variant) {
+RunConfig Config(EliteRule variant) {
   RunConfig config;
   config.cem.variant = variant;
   config.cem.samples = 24;
@@ -67,7 +67,7 @@ RunConfig Config(const std::string& variant) {
 }
 
 TEST(EliteSelector, OfThePaperKeepsTheLeastGraspableHoweverAlikeTheyAre) {
-  const RunConfig config = Config("paper");
+  const RunConfig config = Config(EliteRule::kPaper);
   const EliteSelector selector(config, Prior());
   const Selection selection = selector.Select(Stage(), 1);
   EXPECT_EQ(selection.elites, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6, 7}));
@@ -76,7 +76,7 @@ TEST(EliteSelector, OfThePaperKeepsTheLeastGraspableHoweverAlikeTheyAre) {
 }
 
 TEST(EliteSelector, StratifiedKeepsThePriorsSharesAndReplaysWhatIsMissing) {
-  RunConfig config = Config("stratified");
+  RunConfig config = Config(EliteRule::kStratified);
   config.cem.keep = 40;
   const EliteSelector selector(config, Prior());
   const Selection selection = selector.Select(Stage(), 1);
@@ -93,7 +93,7 @@ TEST(EliteSelector, StratifiedKeepsThePriorsSharesAndReplaysWhatIsMissing) {
 }
 
 TEST(EliteSelector, MixesInTheAskedShareOfThePriorSet) {
-  RunConfig config = Config("paper");
+  RunConfig config = Config(EliteRule::kPaper);
   config.cem.prior_fraction = 0.5;
   const EliteSelector selector(config, Prior());
   const Selection first = selector.Select(Stage(), 1), second = selector.Select(Stage(), 2);
@@ -126,7 +126,7 @@ TEST(EliteSelector, RedistancesElitesToTheirMeshes) {
 }
 
 TEST(EliteSelector, TrainsOnTheElitesOfTheSamplesAndThenTheReplayedOfThePriorSet) {
-  const RunConfig config = Config("paper");
+  const RunConfig config = Config(EliteRule::kPaper);
   const torch::Tensor prior = Prior();
   const ScoredStage stage = Stage();
   const torch::Tensor set = EliteSelector(config, prior).TrainingSet(stage, {{1, 21}, {0, 37, 5}});
@@ -167,7 +167,7 @@ ScoredStage Unusable() {
 }
 
 TEST(EliteSelector, CutsThePriorSetIntoCellsAroundShapesOfAStreamOfTheirOwn) {
-  RunConfig config = Config("stratified");
+  RunConfig config = Config(EliteRule::kStratified);
   config.seed = 7;
   config.cem.cells = 2;
   config.cem.keep = 40;  // the share of a cell is all its shapes
@@ -192,7 +192,7 @@ TEST(EliteSelector, CutsThePriorSetIntoCellsAroundShapesOfAStreamOfTheirOwn) {
 }
 
 TEST(EliteSelector, ReplaysAShareOfTheElitesThatThereAreFromAStreamOfItsOwn) {
-  RunConfig config = Config("paper");
+  RunConfig config = Config(EliteRule::kPaper);
   config.seed = 7;
   config.cem.prior_fraction = 0.75;
   ScoredStage stage = Stage();
@@ -205,22 +205,22 @@ TEST(EliteSelector, ReplaysAShareOfTheElitesThatThereAreFromAStreamOfItsOwn) {
 }
 
 TEST(EliteSelector, OfTheControlDrawsElitesFromAStreamOfItsOwn) {
-  RunConfig config = Config("paper");
+  RunConfig config = Config(EliteRule::kPaper);
   config.seed = 7;
-  config.cem.select = "random";
+  config.cem.select = EliteOrder::kRandom;
   const Selection selection = EliteSelector(config, Prior()).Select(Stage(), 2);
   EXPECT_EQ(selection.elites, Drawn(UpTo(24), 8, RngStream(7, "control", 2)));
 }
 
 TEST(EliteSelector, OfTheControlDrawsOtherElitesInEveryEpisode) {
-  for (const char* variant : {"paper", "stratified"}) {
+  for (const EliteRule variant : {EliteRule::kPaper, EliteRule::kStratified}) {
     RunConfig config = Config(variant);
-    config.cem.select = "random";
+    config.cem.select = EliteOrder::kRandom;
     config.cem.cells = kFamilies;
     const EliteSelector selector(config, Prior());
     const Selection first = selector.Select(Stage(), 1), again = selector.Select(Stage(), 1);
     EXPECT_EQ(first.elites, again.elites);
-    EXPECT_NE(first.elites, selector.Select(Stage(), 2).elites) << variant;
+    EXPECT_NE(first.elites, selector.Select(Stage(), 2).elites) << ChoiceName(variant);
     EXPECT_TRUE(std::is_sorted(first.elites.begin(), first.elites.end()));
   }
 }

@@ -149,7 +149,7 @@ TEST(ShapeModel, LatentModeMovesTheNoiseOfSpheres) {
   const TempFolder folder;
   StoppingObserver observer;
   RunConfig config = WithPrior(folder, TinySpheres());
-  config.cem.mode = "latent";
+  config.cem.mode = EpisodeMode::kLatent;
   StartRun(config, folder / "run", &observer, MakeSpheres);
   const RunFolder run{folder / "run"};
   const SphereModel first = StateOf(config, run.EpisodeCheckpoint(0));

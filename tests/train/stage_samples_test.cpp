@@ -36,12 +36,12 @@ std::string RowOf(const ScoredSample& sample) {
 TEST(StageSamples, AreThoseThatTheRunScoredInAnyOrderAndForAnyNumberOfThreads) {
   const TempFolder folder;
   StoppingObserver observer;
-  for (const char* mode : {"gan", "latent"}) {
+  for (const EpisodeMode mode : {EpisodeMode::kGan, EpisodeMode::kLatent}) {
     RunConfig config = shapes::Tiny();
     config.cem.mode = mode;
     config.cem.episodes = 1;
     config.cem.prior_scored = 0;  // all
-    const RunFolder run{folder / mode};
+    const RunFolder run{folder / ChoiceName(mode)};
     StartRun(config, run.root, &observer);
     for (const int stage : {-1, 0, 1}) {
       const auto rows = RowsOf(stage < 0 ? run.PriorScores() : run.Episode(stage) / "scores.csv");
@@ -52,7 +52,7 @@ TEST(StageSamples, AreThoseThatTheRunScoredInAnyOrderAndForAnyNumberOfThreads) {
         ASSERT_EQ(samples.size(), indices.size());
         for (std::size_t j = 0; j < indices.size(); ++j) {
           EXPECT_EQ(RowOf(samples[j]), rows[static_cast<std::size_t>(indices[j])])
-              << mode << " " << stage << " " << indices[j];
+              << ChoiceName(mode) << " " << stage << " " << indices[j];
         }
       }
     }

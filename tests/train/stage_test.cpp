@@ -39,11 +39,13 @@ TEST(StageScoresCsv, OfAStageHasEveryNumberUnderItsOwnName) {
   scored.scores[0].mean = 0.625;
   scored.scores[0].fraction_nonzero = 0.875;
   scored.scores[0].grasps.resize(3);
-  EXPECT_EQ(StageScoresCsv(scored),
+  EXPECT_EQ(StageScoresCsv(2, scored),
             "object,status,num_grasps,graspability,ci_low,ci_high,mean,fraction_nonzero\n"
-            "0,few_grasps,3,0.5,0.25,0.75,0.625,0.875\n"
-            "1,disjoint,0,,,,,\n"
-            "2,no_grasps,0,0,0,0,0,0\n");
+            "sample-000000,few_grasps,3,0.5,0.25,0.75,0.625,0.875\n"
+            "sample-000001,disjoint,0,,,,,\n"
+            "sample-000002,no_grasps,0,0,0,0,0,0\n");
+  // Shapes of the prior set are no samples.
+  EXPECT_TRUE(StageScoresCsv(-1, scored).ends_with("\n2,no_grasps,0,0,0,0,0,0\n"));
 }
 
 // Network values on a line: shape i is places[i] at one node and 0 elsewhere.
@@ -82,7 +84,7 @@ TEST(Summarize, CountsByStatusAndLeavesTheRejectedOutOfTheMean) {
 }
 
 TEST(Summarize, ComparesTheUsableSamplesWithAsManyOfThePriorSet) {
-  // As in CompareSets.TellsTheSamplesFromTheReference: 0.1, 0.3, 2 against 0, 1, 10.
+  // As in CompareWithPrior.TellsTheSamplesFromTheReference: 0.1, 0.3, 2 against 0, 1, 10.
   RunConfig config;
   const torch::Tensor prior = Line({0.0F, 1.0F, 10.0F, 0.3F, 0.2F});
   StageStatistics row = Summarize(0, FourSamples(), prior, config);

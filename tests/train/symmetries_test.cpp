@@ -17,7 +17,7 @@ torch::Tensor Numbered(std::int64_t count) {
 }
 
 // The corner values identify the symmetry.
-std::set<std::vector<float>> Shown(const std::string& symmetries) {
+std::set<std::vector<float>> Shown(Symmetries symmetries) {
   RngStream rng(1, "symmetries");
   const torch::Tensor shown = RandomSymmetries(Numbered(400), symmetries, &rng);
   std::set<std::vector<float>> found;
@@ -35,21 +35,23 @@ std::set<std::vector<float>> Shown(const std::string& symmetries) {
 
 TEST(Symmetries, NoneChangesNothingAndDrawsNothing) {
   RngStream rng(1, "symmetries"), untouched(1, "symmetries");
-  EXPECT_TRUE(torch::equal(RandomSymmetries(Numbered(3), "none", &rng), Numbered(3)));
+  EXPECT_TRUE(torch::equal(RandomSymmetries(Numbered(3), Symmetries::kNone, &rng), Numbered(3)));
   EXPECT_EQ(rng.NextU64(), untouched.NextU64());
 }
 
 TEST(Symmetries, AroundZShowsAllEightAndNeverTurnsUpsideDown) {
-  const auto found = Shown("around_z");
+  const auto found = Shown(Symmetries::kAroundZ);
   EXPECT_EQ(found.size(), 8u);
   for (const auto& corners : found) EXPECT_LT(corners[0], corners[4]);  // z still grows upwards
 }
 
-TEST(Symmetries, AroundZAndUpShowsAllSixteen) { EXPECT_EQ(Shown("around_z_and_up").size(), 16u); }
+TEST(Symmetries, AroundZAndUpShowsAllSixteen) {
+  EXPECT_EQ(Shown(Symmetries::kAroundZAndUp).size(), 16u);
+}
 
 TEST(Symmetries, EveryViewHoldsTheSameValues) {
   RngStream rng(2, "symmetries");
-  const torch::Tensor shown = RandomSymmetries(Numbered(20), "around_z_and_up", &rng);
+  const torch::Tensor shown = RandomSymmetries(Numbered(20), Symmetries::kAroundZAndUp, &rng);
   const auto sorted = std::get<0>(Numbered(1).flatten().sort());
   for (std::int64_t i = 0; i < 20; ++i) {
     EXPECT_TRUE(torch::equal(std::get<0>(shown[i].flatten().sort()), sorted));
@@ -57,7 +59,7 @@ TEST(Symmetries, EveryViewHoldsTheSameValues) {
 }
 
 // Numbered(1) with x and y exchanged or not, then mirrored along the axes named: what may be shown.
-std::vector<torch::Tensor> Symmetries(bool upside_down) {
+std::vector<torch::Tensor> AllSymmetries(bool upside_down) {
   std::vector<torch::Tensor> all;
   const torch::Tensor axis = torch::arange(4, torch::kFloat);
   for (int i = 0; i < (upside_down ? 16 : 8); ++i) {
@@ -73,9 +75,9 @@ std::vector<torch::Tensor> Symmetries(bool upside_down) {
 TEST(Symmetries, AreThoseThatKeepTheZAxisEachAsOften) {
   for (const bool upside_down : {false, true}) {
     RngStream rng(4, "symmetries");
-    const std::vector<torch::Tensor> all = Symmetries(upside_down);
-    const torch::Tensor shown =
-        RandomSymmetries(Numbered(800), upside_down ? "around_z_and_up" : "around_z", &rng);
+    const std::vector<torch::Tensor> all = AllSymmetries(upside_down);
+    const torch::Tensor shown = RandomSymmetries(
+        Numbered(800), upside_down ? Symmetries::kAroundZAndUp : Symmetries::kAroundZ, &rng);
     std::map<std::size_t, double> times;
     for (std::int64_t i = 0; i < shown.size(0); ++i) {
       std::size_t k = 0;
