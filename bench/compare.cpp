@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
       {"epsilon", CompareEpsilon},
       {"evaluation", CompareEvaluation},
       {"perturb", ComparePerturb},
+      {"poses", ComparePoses},
       {"similarity", CompareSimilarity}};
   const std::vector<std::string> named(argv + 1, argv + argc);
   std::size_t known = 0;
@@ -22,6 +23,6 @@ int main(int argc, char** argv) {
     if (named.empty() || times > 0) compare();
   }
   if (known == named.size()) return 0;
-  std::fprintf(stderr, "bench_compare [epsilon] [evaluation] [perturb] [similarity]\n");
+  std::fprintf(stderr, "bench_compare [epsilon] [evaluation] [perturb] [poses] [similarity]\n");
   return 2;
 }

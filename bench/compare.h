@@ -5,6 +5,7 @@ namespace antigrasp::bench {
 void CompareEpsilon();
 void CompareEvaluation();
 void ComparePerturb();
+void ComparePoses();
 void CompareSimilarity();
 
 }  // namespace antigrasp::bench

@@ -27,7 +27,8 @@ struct StablePose {
 // are one facet.
 //
 // Any mesh: only its vertices count. No pose when they lie in one plane or when the centre of mass
-// is not inside their hull. 5-30 ms for 2,500 faces.
+// is not inside their hull. With every vertex on the hull 10 ms for 2,500 faces and 0.9 s for
+// 100,000, half of it the hull.
 std::vector<StablePose> StablePoses(const TriangleMesh& mesh, const Eigen::Vector3d& com);
 
 }  // namespace antigrasp
