@@ -1,5 +1,5 @@
-// Folders that mix sizes: one factor for the set or one an object, and no file takes the others with
-// it.
+// Folders that mix sizes: one factor for the set or one an object, and no file takes the others
+// with it.
 #include <gtest/gtest.h>
 
 #include <algorithm>

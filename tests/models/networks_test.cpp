@@ -226,9 +226,7 @@ TEST(Discriminator, AddsTheDeviationOverAPackToEveryShapesFeatures) {
     deviations.push_back(pack.std(0, /*unbiased=*/false, /*keepdim=*/true).expand_as(pack));
   }
   x = layer(torch::cat({x, torch::cat(deviations)}, 1), 4);
-  x = torch::linear(x.flatten(1), parameters["layer" + std::to_string(layer) + ".weight"],
-                    parameters["bias" + std::to_string(layer)])
-          .squeeze(1);
+  x = torch::linear(x.flatten(1), parameters["layer5.weight"], parameters["bias5"]).squeeze(1);
   const torch::Tensor score = discriminator(grid);
   EXPECT_EQ(score.sizes(), (std::vector<std::int64_t>{8}));
   EXPECT_LT((score - x).abs().max().item<double>(), 1e-4 * (1 + x.abs().max().item<double>()));
