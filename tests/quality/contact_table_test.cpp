@@ -123,7 +123,7 @@ TEST(ContactTableOptions, EveryKeyIsBoundToItsFieldAndEveryDefaultIsItsNumber) {
                           "contact.friction = 0.5", "contact.cone_edges = 8",
                           "contact.finger_radius = 0.005", "contact.torque_scale = 1000.0",
                           "contact.torsion = 'dexnet'", "wrench.force_limit = 20.0"}));
-  ContactTableOptions options{0.25, 6, 0.01, 10.0, "none", {}};
+  ContactTableOptions options{0.25, 6, 0.01, 10.0, Torsion::kNone, {}};
   options.wrench.force_limit = 3.0;
   EXPECT_EQ(head(options),
             (std::vector<std::string>{"contact.friction = 0.25", "contact.cone_edges = 6",
