@@ -54,7 +54,7 @@ class Clone:
     def build(self, tests, cores=None):
         """The output of a build of what the tests need that failed; None when it is built."""
         rooms = {"viewer"} if tests.startswith("viewer") else set(re.findall(r"[a-z]+(?=[|)a-z]*/)", tests))
-        programs = {"viewer": "antigrasp", "scripts": "antigrasp", "package": "all"}
+        programs = {"viewer": "antigrasp", "scripts": "antigrasp", "package": "all", "layout": "antigrasp_core"}
         targets = sorted(programs.get(room, f"{room}_test") for room in rooms)
         done = self.run("cmake", "--build", "build/release", "-j", str(cores or self.cores), "--target", *targets)
         return done.stdout if done.returncode else None
