@@ -1,5 +1,7 @@
 #include "antigrasp/app/perturb_output.h"
 
+#include <spdlog/spdlog.h>
+
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -7,6 +9,7 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/mesh/place.h"
 #include "antigrasp/perturb/perturb_summary.h"
 #include "antigrasp/render/contact_sheet.h"
 
@@ -17,7 +20,28 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kSheetColumns = 8;
 
+// More of an object's size than this may not be lost in a file: faces of a hundredth of the size
+// would turn by up to 0.2 degrees.
+constexpr double kMostLoss = 1e-5;
+
 bool IsOk(const PerturbedObject& item) { return item.Status() == "ok"; }
+
+// STL where it holds the object well enough.
+std::string ExtensionFor(const std::string& name, const TriangleMesh& mesh) {
+  const double loss = SinglePrecisionLoss(mesh), size = Bounds(mesh).Extent().maxCoeff();
+  if (!(loss > kMostLoss * size)) return ".stl";
+  spdlog::warn(
+      "{}: written as PLY: so far from the origin STL would round coordinates by {:.1g} of their "
+      "unit, {:.1g} of the object's size",
+      name, loss, loss / size);
+  return ".ply";
+}
+
+// Also takes away what an earlier call left there in the other format.
+void WriteAs(const std::string& extension, const fs::path& path, const TriangleMesh& mesh) {
+  WriteMesh(path.string() + extension, mesh);
+  fs::remove(path.string() + (extension == ".stl" ? ".ply" : ".stl"));
+}
 
 }  // namespace
 
@@ -106,9 +130,12 @@ void WritePerturbedMeshes(const std::vector<PerturbedObject>& objects, const fs:
   MakeFolder(out / "before");
   MakeFolder(out / "after");
   for (const PerturbedObject& item : objects) {
-    const std::string file = FileNameOf(item.object.name) + ".stl";
-    if (!item.scored.before.faces.empty()) WriteMesh(out / "before" / file, item.scored.before);
-    if (IsOk(item)) WriteMesh(out / "after" / file, item.scored.result.mesh);
+    const TriangleMesh& before = item.scored.before;
+    if (before.faces.empty()) continue;
+    const std::string file = FileNameOf(item.object.name);
+    const std::string extension = ExtensionFor(item.object.name, before);
+    WriteAs(extension, out / "before" / file, before);
+    if (IsOk(item)) WriteAs(extension, out / "after" / file, item.scored.result.mesh);
   }
 }
 

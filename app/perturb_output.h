@@ -31,6 +31,8 @@ std::string PerturbSummary(const std::vector<PerturbedObject>& objects);
 void CheckPerturbFolder(const std::vector<std::string>& inputs, const std::filesystem::path& out);
 
 // out/after/NAME.stl for every printable result, out/before/NAME.stl for every usable input.
+// NAME.ply and a warning where single precision would take more than 1e-5 of the object's size: it
+// lies some hundred times its size from the origin.
 void WritePerturbedMeshes(const std::vector<PerturbedObject>& objects,
                           const std::filesystem::path& out);
 

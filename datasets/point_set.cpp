@@ -62,12 +62,14 @@ void PointSet::AddBlock(const Vector3f* points, std::size_t count) {
 }
 
 PointSet SurfacePoints(const TriangleMesh& mesh, int count, std::uint64_t seed, std::uint64_t set,
-                       std::uint64_t shape) {
+                       std::uint64_t shape, const Eigen::Vector3d& origin) {
   AG_CHECK(count > 0, "at least one point a shape");
   const SurfaceSampler surface(mesh);
   RngStream rng(seed, "surface points", set, shape);
   std::vector<Vector3f> points;
-  for (int i = 0; i < count; ++i) points.push_back(surface.Draw(&rng).point.cast<float>());
+  for (int i = 0; i < count; ++i) {
+    points.push_back((surface.Draw(&rng).point - origin).cast<float>());
+  }
   return PointSet(std::move(points));
 }
 

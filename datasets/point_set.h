@@ -45,8 +45,9 @@ class PointSet {
 
 // `count` points uniform over the area of the mesh (its area > 0), from the stream
 // RngStream(seed, "surface points", set, shape): two samplings of one mesh differ unless all three
-// are equal.
+// are equal. Points are float, relative to `origin`: one for all that are compared, near to them.
 PointSet SurfacePoints(const TriangleMesh& mesh, int count, std::uint64_t seed, std::uint64_t set,
-                       std::uint64_t shape);
+                       std::uint64_t shape,
+                       const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 }  // namespace antigrasp

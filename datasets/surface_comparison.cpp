@@ -3,6 +3,7 @@
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/statistics.h"
 #include "antigrasp/datasets/roughness.h"
+#include "antigrasp/mesh/place.h"
 
 namespace antigrasp {
 namespace {
@@ -10,12 +11,25 @@ namespace {
 // Numbers of the sets' random streams.
 enum Stream : std::uint64_t { kSamples, kReference, kTraining, kSamplesAgain, kReferenceAgain };
 
+// Of all the shapes together: what is compared is where they lie to each other.
+Eigen::Vector3d CommonPlace(std::initializer_list<const std::vector<TriangleMesh>*> sets) {
+  TriangleMesh corners;
+  for (const auto* set : sets) {
+    for (const TriangleMesh& mesh : *set) {
+      const BoundingBox box = Bounds(mesh);
+      corners.vertices.insert(corners.vertices.end(), {box.min, box.max});
+    }
+  }
+  return RoundPlace(corners);
+}
+
 void AddPoints(const std::vector<TriangleMesh>& meshes, Stream set,
-               const SurfaceComparisonOptions& options, std::vector<PointSet>* points) {
+               const SurfaceComparisonOptions& options, const Eigen::Vector3d& place,
+               std::vector<PointSet>* points) {
   std::vector<std::optional<PointSet>> slots(meshes.size());
   ParallelFor(static_cast<std::int64_t>(meshes.size()), options.threads, [&](std::int64_t i) {
     const auto slot = static_cast<std::size_t>(i);
-    slots[slot] = SurfacePoints(meshes[slot], options.points, options.seed, set, slot);
+    slots[slot] = SurfacePoints(meshes[slot], options.points, options.seed, set, slot, place);
   });
   for (auto& slot : slots) points->push_back(std::move(*slot));
 }
@@ -53,9 +67,10 @@ std::vector<double> Floors(const std::vector<PointSet>& points, const std::vecto
 // `points`: the samples, then as many of the reference.
 Memorisation MemorisationOf(const std::vector<PointSet>& points,
                             const std::vector<TriangleMesh>& training,
-                            const SurfaceComparisonOptions& options, const ProgressFn& progress) {
+                            const SurfaceComparisonOptions& options, const Eigen::Vector3d& place,
+                            const ProgressFn& progress) {
   std::vector<PointSet> others;
-  AddPoints(training, kTraining, options, &others);
+  AddPoints(training, kTraining, options, place, &others);
   const std::vector<double> nearest = NearestChamfer(points, others, options.threads, progress);
   const auto half = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
   const std::vector<double> samples(nearest.begin(), half), reference(half, nearest.end());
@@ -78,10 +93,11 @@ SurfaceComparison CompareSurfaces(const std::vector<TriangleMesh>& samples,
   AG_CHECK(samples.size() >= 2, "two sets of at least two shapes");
   const auto progress = [&](const char* name) { return phase ? phase(name) : ProgressFn(); };
   std::vector<PointSet> points, again;
-  AddPoints(samples, kSamples, options, &points);
-  AddPoints(reference, kReference, options, &points);
-  AddPoints(samples, kSamplesAgain, options, &again);
-  AddPoints(reference, kReferenceAgain, options, &again);
+  const Eigen::Vector3d place = CommonPlace({&samples, &reference, &training});
+  AddPoints(samples, kSamples, options, place, &points);
+  AddPoints(reference, kReference, options, place, &points);
+  AddPoints(samples, kSamplesAgain, options, place, &again);
+  AddPoints(reference, kReferenceAgain, options, place, &again);
   const DistanceMatrix all = ChamferMatrix(points, options.threads, progress("distances"));
   const std::vector<double> floors = Floors(points, again, options.threads);
   const DistanceMatrix clean = WithoutFloors(all, floors);
@@ -97,8 +113,8 @@ SurfaceComparison CompareSurfaces(const std::vector<TriangleMesh>& samples,
   result.samples.vendi = VendiScore(clean.topLeftCorner(n, n), scale);
   result.reference.vendi = VendiScore(clean.bottomRightCorner(n, n), scale);
   if (!training.empty()) {
-    result.memorisation =
-        MemorisationOf(points, training, options, progress("distances to the training shapes"));
+    result.memorisation = MemorisationOf(points, training, options, place,
+                                         progress("distances to the training shapes"));
   }
   return result;
 }

@@ -6,16 +6,12 @@
 #include <numbers>
 #include <vector>
 
+#include "antigrasp/export/rounding.h"
+
 namespace antigrasp {
-namespace {
-
-// A slope of exactly the limit is printed, however its normal is rounded.
-constexpr double kRounding = 1e-6;
-
-}  // namespace
 
 Overhang MeasureOverhang(const TriangleMesh& mesh, const Eigen::Vector3d& up, double angle,
-                         double layer) {
+                         double layer, double rounding) {
   std::vector<double> height;
   height.reserve(mesh.vertices.size());
   double plate = std::numeric_limits<double>::infinity();
@@ -23,18 +19,21 @@ Overhang MeasureOverhang(const TriangleMesh& mesh, const Eigen::Vector3d& up, do
     height.push_back(up.dot(v));
     plate = std::min(plate, height.back());
   }
-  const double limit = std::sin(angle * std::numbers::pi / 180.0) + kRounding;
+  const double limit = std::sin(angle * std::numbers::pi / 180.0);
+  const double first_layer = layer + LengthSlack(layer, rounding);
   double area = 0.0, hanging = 0.0, contact = 0.0;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const Eigen::Vector3d cross = FaceCross(mesh, f);
     const double twice_area = cross.norm();
     area += twice_area;
-    if (-up.dot(cross) <= limit * twice_area) continue;
+    const double down = -up.dot(cross);
+    if (down <= limit * twice_area) continue;
+    if (down <= (limit + AngleSlack(mesh, f, rounding)) * twice_area) continue;
     double top = plate;
     for (const std::int32_t v : mesh.faces[f]) {
       top = std::max(top, height[static_cast<std::size_t>(v)]);
     }
-    (top - plate <= layer ? contact : hanging) += twice_area;
+    (top - plate <= first_layer ? contact : hanging) += twice_area;
   }
   return {area > 0.0 ? hanging / area : 0.0, 0.5 * contact};
 }

@@ -1,12 +1,15 @@
 #include "antigrasp/export/print_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "antigrasp/core/check.h"
 #include "antigrasp/export/overhang.h"
+#include "antigrasp/export/rounding.h"
 #include "antigrasp/export/wall_thickness.h"
 #include "antigrasp/mesh/inspect.h"
+#include "antigrasp/mesh/place.h"
 #include "antigrasp/mesh/stable_poses.h"
 
 namespace antigrasp {
@@ -16,6 +19,10 @@ namespace {
 // share of the larger, are equal: facets of one round side must not win by rounding.
 constexpr double kEqualOverhang = 0.005;
 constexpr double kEqualContact = 0.01;
+// Probabilities nearer than this share, and upward axes nearer than this, differ by rounding.
+constexpr double kEqualPose = 1e-4;
+// Rounding is named in the notes when it leaves more than this share of the thinnest wall open.
+constexpr double kMuchRounding = 0.05;
 
 struct Candidate {
   StablePose pose;
@@ -36,7 +43,16 @@ void KeepBest(double slack, const Value& value, std::vector<Candidate>* candidat
   std::erase_if(*candidates, [&](const Candidate& c) { return value(c) < best - slack; });
 }
 
-// The likeliest first among those that nothing tells apart.
+bool FirstInOrder(const StablePose& a, const StablePose& b) {
+  for (int k = 0; k < 3; ++k) {
+    const double difference = a.table_from_object(2, k) - b.table_from_object(2, k);
+    if (std::abs(difference) > kEqualPose) return difference < 0.0;
+  }
+  return false;
+}
+
+// The likeliest among those that nothing else tells apart. The poses of a symmetric object are
+// equally likely but for rounding, which must not choose.
 Candidate BestPose(std::vector<Candidate> candidates) {
   KeepBest(
       kEqualOverhang, [](const Candidate& c) { return -c.overhang.share; }, &candidates);
@@ -45,10 +61,17 @@ Candidate BestPose(std::vector<Candidate> candidates) {
   KeepBest(
       kEqualContact * contact, [](const Candidate& c) { return c.overhang.contact_area; },
       &candidates);
-  return *std::min_element(candidates.begin(), candidates.end(),
-                           [](const Candidate& a, const Candidate& b) {
-                             return a.pose.com_height < b.pose.com_height * (1.0 - kEqualContact);
-                           });
+  Candidate best = *std::min_element(
+      candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        return a.pose.com_height < b.pose.com_height * (1.0 - kEqualContact);
+      });
+  const StablePose likeliest = best.pose;
+  for (const Candidate& c : candidates) {
+    const bool equal = std::abs(c.pose.com_height / likeliest.com_height - 1.0) < kEqualPose &&
+                       std::abs(c.pose.probability / likeliest.probability - 1.0) < kEqualPose;
+    if (equal && FirstInOrder(c.pose, best.pose)) best = c;
+  }
+  return best;
 }
 
 std::string Text(const char* format, double first, double second = 0.0) {
@@ -65,7 +88,7 @@ std::vector<std::string> Notes(const PrintCheck& check, const PrintOptions& opti
         (check.voids == 1 ? std::string("A void is") : std::to_string(check.voids) + " voids are") +
         " closed in: powder, resin or support stays inside.");
   }
-  if (check.wall_mm && *check.wall_mm < options.min_wall_mm) {
+  if (check.thin) {
     notes.push_back(
         Text("The thinnest wall is %.2g mm, below %g mm; ", *check.wall_mm, options.min_wall_mm) +
         Text("%.1f %% of the surface belongs to such walls.", 100.0 * check.thin_share));
@@ -77,8 +100,14 @@ std::vector<std::string> Notes(const PrintCheck& check, const PrintOptions& opti
              "support.",
              100.0 * check.overhang_share, options.overhang_angle));
   }
-  if (check.contact_mm2 < options.min_contact_mm2) {
+  const double least = std::sqrt(options.min_contact_mm2);
+  if (std::sqrt(check.contact_mm2) < least - LengthSlack(least, check.rounding_mm)) {
     notes.push_back(Text("Only %.2g mm2 lie on the plate: print it on a raft.", check.contact_mm2));
+  }
+  const double open = LengthSlack(0.0, check.rounding_mm);
+  if (open > kMuchRounding * options.min_wall_mm) {
+    notes.push_back(
+        Text("Lengths are known to %.2g mm: single precision, far from the origin.", open));
   }
   return notes;
 }
@@ -102,12 +131,16 @@ void Bind(OptionTable* table, PrintOptions* o) {
              "area on the plate below which the notes ask for a raft, mm2");
 }
 
-PrintCheck CheckPrint(const TriangleMesh& mesh, double size_mm, const PrintOptions& options) {
+PrintCheck CheckPrint(const TriangleMesh& as_it_lies, double size_mm, const PrintOptions& options) {
+  const Eigen::Vector3d place = RoundPlace(as_it_lies);
+  const TriangleMesh mesh = Transformed(as_it_lies, 1.0, Eigen::Vector3d::Zero() - place);
+  const double rounding = RoundedBy(as_it_lies);
   const Eigen::Vector3d extent = Bounds(mesh).Extent();
   AG_CHECK(extent.maxCoeff() > 0.0, "a mesh with a positive extent");
   PrintCheck check;
   check.mm_per_unit = size_mm / extent.maxCoeff();
   check.size_mm = check.mm_per_unit * extent;
+  check.rounding_mm = check.mm_per_unit * rounding;
   const MeshReport report = Inspect(mesh);
   check.watertight = report.closed && report.outward;
   check.why_not_solid = WhyNotSolid(report);
@@ -115,20 +148,25 @@ PrintCheck CheckPrint(const TriangleMesh& mesh, double size_mm, const PrintOptio
 
   WallOptions wall_options;
   wall_options.opposite_angle = options.opposite_angle;
-  wall_options.thin = options.min_wall_mm / check.mm_per_unit;
+  const double thin_mm = options.min_wall_mm - LengthSlack(options.min_wall_mm, check.rounding_mm);
+  wall_options.thin = thin_mm / check.mm_per_unit;
+  wall_options.rounding = rounding;
   const WallThickness walls = MeasureWalls(mesh, wall_options);
   if (walls.smallest) check.wall_mm = *walls.smallest * check.mm_per_unit;
-  check.wall_at = walls.at;
+  check.thin = walls.smallest && *walls.smallest < wall_options.thin;
+  check.wall_at = walls.at + place;
   check.thin_share = walls.thin_share;
 
   std::vector<Candidate> candidates;
   const auto consider = [&](const StablePose& pose) {
-    candidates.push_back(
-        {pose, MeasureOverhang(mesh, pose.table_from_object.row(2).transpose(),
-                               options.overhang_angle, options.layer_mm / check.mm_per_unit)});
+    candidates.push_back({pose, MeasureOverhang(mesh, pose.table_from_object.row(2).transpose(),
+                                                options.overhang_angle,
+                                                options.layer_mm / check.mm_per_unit, rounding)});
   };
+  double least_likely = options.min_probability;  // always the likeliest, and what equals it
   for (const StablePose& pose : StablePoses(mesh, CenterOfMass(mesh))) {
-    if (candidates.empty() || pose.probability >= options.min_probability) consider(pose);
+    if (candidates.empty()) least_likely = std::min(least_likely, pose.probability);
+    if (pose.probability >= (1.0 - kEqualPose) * least_likely) consider(pose);
   }
   if (candidates.empty()) consider(StablePose());
   const Candidate best = BestPose(std::move(candidates));

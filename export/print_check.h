@@ -36,20 +36,27 @@ struct PrintCheck {
   int voids = 0;                  // closed in, inside the body
   std::optional<double> wall_mm;  // smallest wall (wall_thickness.h); none when nothing is one
   Eigen::Vector3d wall_at = Eigen::Vector3d::Zero();  // where, on the mesh
+  bool thin = false;                                  // that wall is below min_wall_mm
   double thin_share = 0.0;                            // of the surface, in walls below min_wall_mm
   // The stable pose suggested for printing, as StablePose: rows are the plate's axes in the mesh's
   // frame, row 2 points up. Identity with probability 0 when there is no stable pose.
   Eigen::Matrix3d table_from_object = Eigen::Matrix3d::Identity();
-  double pose_probability = 0.0;   // of the pose after a drop in a random orientation
-  double overhang_share = 0.0;     // of the surface, in that pose (overhang.h)
-  double contact_mm2 = 0.0;        // area on the plate in that pose
+  double pose_probability = 0.0;  // of the pose after a drop in a random orientation
+  double overhang_share = 0.0;    // of the surface, in that pose (overhang.h)
+  double contact_mm2 = 0.0;       // area on the plate in that pose
+  // By how much each coordinate may be off: a mesh of single-precision numbers far from the origin.
+  // What is at a limit within that passes.
+  double rounding_mm = 0.0;
   std::vector<std::string> notes;  // what to look at before printing, a sentence each; may be empty
 };
 
 // Checks the object as it is printed with its largest extent in its own frame at `size_mm`. Of the
 // stable poses with at least min_probability (always the likeliest) the one with the least overhang
 // is suggested; among poses within 0.5 % of the surface of it the one with the largest area on the
-// plate, then the one with the lowest centre of mass.
+// plate, then the one with the lowest centre of mass, then the likeliest; of equally likely ones
+// that whose upward axis comes first in the order of x, y, z. The same for a solid wherever it
+// lies; a wall, a slope, a first layer or an area on the plate of exactly the limit passes
+// (rounding.h).
 //
 // Any finite mesh with a positive extent (CHECKed), also one that is no solid: the notes say so.
 // Deterministic. 15-40 ms for 2,500 faces, nearly all of it Inspect and StablePoses.

@@ -99,7 +99,7 @@ std::string PrintSummary(const std::vector<PrintedObject>& objects, const PrintO
   for (const PrintedObject& item : objects) {
     const double wall = item.check.wall_mm.value_or(std::numeric_limits<double>::infinity());
     thinnest = std::min(thinnest, wall);
-    thin += wall < options.min_wall_mm ? 1 : 0;
+    thin += item.check.thin ? 1 : 0;
     largest = std::max(largest, item.check.overhang_share);
     hanging += item.check.overhang_share > options.max_overhang ? 1 : 0;
   }

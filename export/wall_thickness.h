@@ -11,6 +11,7 @@ struct WallOptions {
   double opposite_angle = 45.0;  // how far two sides of a wall may be from parallel, degrees
   int samples = 2000;            // over the surface, beside the middle of every face
   double thin = 0.0;             // thin_share counts what is thinner, in the mesh's unit
+  double rounding = 0.0;         // of coordinates, mesh's unit (rounding.h)
 };
 
 struct WallThickness {
@@ -26,7 +27,8 @@ struct WallThickness {
 // `opposite_angle`. The distance alone would read zero beside every edge (as the inscribed sphere
 // does); so a box reads as its shortest side, a ball as its diameter, a tube as its shell, and a
 // regular tetrahedron, whose sides face each other nowhere, has no wall. What tapers at less than
-// the angle, a blade or a needle, is read at the samples nearest to its edge: down to about 0.
+// the angle, a blade or a needle, is read at the samples nearest to its edge: down to about 0. What
+// tapers at exactly the angle, as edges of 45 degrees do, is no wall, however it is rounded.
 //
 // Any mesh that is oriented outward; slivers without area are left out. The same numbers
 // everywhere: points come from a stream of their own. 2 ms for 2,500 faces.

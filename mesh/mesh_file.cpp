@@ -78,6 +78,14 @@ MeshFormat RequireWritableFormat(const std::filesystem::path& path) {
 
 bool IsMeshFile(const std::filesystem::path& path) { return FindReadableFormat(path).has_value(); }
 
+std::filesystem::path FindMeshFile(const std::filesystem::path& folder, const std::string& name) {
+  for (const std::string& extension : WritableExtensions()) {
+    const std::filesystem::path path = folder / (name + "." + extension);
+    if (std::filesystem::exists(path)) return path;
+  }
+  return folder / (name + ".stl");
+}
+
 TriangleMesh ReadMesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
   RequireFile(path, Expected(kReadableFormats));
   const MeshFormat format = RequireReadableFormat(path);

@@ -17,6 +17,10 @@ TriangleMesh ReadMesh(const std::filesystem::path& path, std::vector<std::string
 // Whether ReadMesh knows the extension (case does not matter).
 bool IsMeshFile(const std::filesystem::path& path);
 
+// The mesh file of this name without extension, in whatever format: STL before OBJ, PLY and OFF. A
+// path with .stl when there is none.
+std::filesystem::path FindMeshFile(const std::filesystem::path& folder, const std::string& name);
+
 // Writes STL (binary), OBJ, PLY (binary) or OFF by extension, atomically. STL has no unit: `scale`
 // multiplies the coordinates (1000 turns metres to the millimetres that slicers assume).
 void WriteMesh(const std::filesystem::path& path, const TriangleMesh& mesh, double scale = 1.0);

@@ -14,9 +14,14 @@ namespace {
 
 using Eigen::Vector3d;
 
+// A plate's normal nearer than this to the object's z axis (radians) is it but for rounding: the
+// level direction across both says nothing.
+constexpr double kUpright = 1e-4;
+
 Eigen::Matrix3d TableFromObject(const Vector3d& up) {
   const Vector3d level(-up.y(), up.x(), 0.0);
-  const Vector3d x = level.norm() > 0.0 ? level.normalized() : Vector3d::UnitX();
+  const Vector3d x =
+      level.norm() > kUpright ? level.normalized() : (Vector3d::UnitX() - up.x() * up).normalized();
   Eigen::Matrix3d rotation;
   rotation << x.transpose(), up.cross(x).transpose(), up.transpose();
   return rotation.array() + 0.0;  // no negative zeros

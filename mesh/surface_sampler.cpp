@@ -34,7 +34,7 @@ SurfaceSampler::Sample SurfaceSampler::Draw(RngStream* rng) const {
   const Vector3d& p0 = mesh_.vertices[static_cast<std::size_t>(corners[0])];
   const Vector3d& p1 = mesh_.vertices[static_cast<std::size_t>(corners[1])];
   const Vector3d& p2 = mesh_.vertices[static_cast<std::size_t>(corners[2])];
-  return {p0 + a * (p1 - p0) + b * (p2 - p0), FaceCross(mesh_, face).normalized()};
+  return {p0 + a * (p1 - p0) + b * (p2 - p0), FaceCross(mesh_, face).normalized(), face};
 }
 
 }  // namespace antigrasp

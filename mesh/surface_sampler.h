@@ -13,6 +13,7 @@ class SurfaceSampler {
   struct Sample {
     Eigen::Vector3d point;
     Eigen::Vector3d normal;  // outward unit normal of its face
+    std::size_t face;
   };
 
   explicit SurfaceSampler(const TriangleMesh& mesh);

@@ -178,6 +178,7 @@ AntipodalTest::AntipodalTest(const PairLimits& limits)
       sine_(std::sin(limits.cone_angle)),
       cosine_of_double_(std::cos(2.0 * limits.cone_angle) - kConeSlack) {
   AG_CHECK(limits.cone_angle >= 0.0 && cosine_ > 1e-9, "cone angle in [0, pi / 2)");
+  limits_.max_width *= 1.0 + limits.width_slack;
 }
 
 // Every q - p is within asin(reach / distance) of the line between the centres: all of them may be

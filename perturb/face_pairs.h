@@ -34,6 +34,7 @@ struct FaceShape {
 struct PairLimits {
   double cone_angle = 0.4636476090008061;  // psi = atan(mu), radians in [0, pi / 2); mu = 0.5
   double max_width = std::numeric_limits<double>::infinity();  // jaw opening, mesh units
+  double width_slack = 0.0;  // a pair may be wider than max_width by this share of it
 };
 
 // Decides one pair, exactly up to kConeSlack. The differences q - p fill a polytope D (the
@@ -57,7 +58,7 @@ class AntipodalTest {
   double Width(const FaceShape& first, const FaceShape& second) const;
 
   double cone_angle() const { return limits_.cone_angle; }
-  double max_width() const { return limits_.max_width; }
+  double max_width() const { return limits_.max_width; }  // with the slack
 
  private:
   enum class Guess { kNo, kYes, kOpen };

@@ -42,7 +42,7 @@ struct Node {
 class PairTree {
  public:
   PairTree(const TriangleMesh& mesh, const PairLimits& limits)
-      : test_(limits), psi_(limits.cone_angle), max_width_(limits.max_width) {
+      : test_(limits), psi_(limits.cone_angle), max_width_(test_.max_width()) {
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
       const FaceShape shape(mesh, f);
       if (!shape.has_area()) continue;

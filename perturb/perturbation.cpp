@@ -7,6 +7,9 @@ namespace antigrasp {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
+// Jaws that open to 40 mm hold a cube of 40 mm: what single precision takes off or adds, as a share
+// of the opening, must not decide.
+constexpr double kOpeningSlack = 1e-5;
 
 // Whether step `i` of `total` is one of `marks` evenly spread ones, the first step among them.
 bool IsMark(std::int64_t i, std::int64_t total, std::int64_t marks) {
@@ -32,6 +35,7 @@ PairLimits PairLimitsOf(const PerturbOptions& options, double friction, double m
   PairLimits limits;
   limits.cone_angle = options.cone > 0.0 ? options.cone * kRadians : std::atan(friction);
   if (options.max_width > 0.0) limits.max_width = options.max_width / metres_per_unit;
+  limits.width_slack = kOpeningSlack;
   return limits;
 }
 

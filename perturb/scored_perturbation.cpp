@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "antigrasp/core/check.h"
+#include "antigrasp/mesh/place.h"
 
 namespace antigrasp {
 namespace {
@@ -15,10 +16,9 @@ double ValueOf(const Graspability& score) {
   return score.status == GraspabilityStatus::kNotEvaluable ? kNaN : score.value;
 }
 
-}  // namespace
-
-ScoredPerturbation PerturbAndScore(const TriangleMesh& mesh, const PerturbSettings& settings,
-                                   std::uint64_t object, const ProgressFn& progress) {
+// Of an object that lies about the origin.
+ScoredPerturbation AboutTheOrigin(const TriangleMesh& mesh, const PerturbSettings& settings,
+                                  std::uint64_t object, const ProgressFn& progress) {
   using Clock = std::chrono::steady_clock;
   ScoredPerturbation out;
   out.graspability_before = out.graspability_after = kNaN;
@@ -45,6 +45,20 @@ ScoredPerturbation PerturbAndScore(const TriangleMesh& mesh, const PerturbSettin
       ValueOf(EvaluateGraspability(out.result.mesh, settings.metric, settings.seed, object));
   out.normals = CompareNormals(out.result.start, out.result.mesh);
   out.change = CompareMeshes(out.before, out.result.mesh);
+  return out;
+}
+
+}  // namespace
+
+ScoredPerturbation PerturbAndScore(const TriangleMesh& mesh, const PerturbSettings& settings,
+                                   std::uint64_t object, const ProgressFn& progress) {
+  const Eigen::Vector3d place = RoundPlace(mesh);
+  if (place.isZero(0.0)) return AboutTheOrigin(mesh, settings, object, progress);
+  ScoredPerturbation out =
+      AboutTheOrigin(Transformed(mesh, 1.0, -place), settings, object, progress);
+  for (TriangleMesh* moved : {&out.before, &out.result.start, &out.result.mesh}) {
+    *moved = Transformed(*moved, 1.0, place);
+  }
   return out;
 }
 

@@ -27,7 +27,7 @@ struct PerturbSettings {
 // An object before and after, with all that is reported about it. What does not exist (no result,
 // no evaluable mesh) is NaN or -1.
 struct ScoredPerturbation {
-  TriangleMesh before;  // the input in single precision
+  TriangleMesh before;  // the input in single precision about its own place
   PerturbResult result;
   double graspability_before, graspability_after;  // under the same random numbers
   std::int64_t pairs_before = -1, pairs_after = -1;
@@ -38,7 +38,8 @@ struct ScoredPerturbation {
 
 // Both meshes are scored as object number `object`; the algorithm draws from the stream
 // (seed, "perturb", object). Single thread. The algorithm's progress is passed on. Any mesh; what
-// is no solid is returned with result.failure.
+// is no solid is returned with result.failure. Wherever it lies: all work is done at the origin
+// (RoundPlace), and the meshes come back where the input is.
 ScoredPerturbation PerturbAndScore(const TriangleMesh& mesh, const PerturbSettings& settings,
                                    std::uint64_t object, const ProgressFn& progress = nullptr);
 

@@ -7,6 +7,7 @@
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/core/statistics.h"
+#include "antigrasp/mesh/place.h"
 #include "antigrasp/mesh/ray_scene.h"
 #include "antigrasp/quality/adaptive_draws.h"
 #include "antigrasp/quality/parallel_jaws.h"
@@ -112,6 +113,11 @@ void SummarizeGrasps(const MetricOptions& options, Graspability* result) {
   result->ci_high = interval.high;
 }
 
+void Move(const Eigen::Vector3d& by, Grasp* grasp) {
+  grasp->center += by;
+  for (Contact& contact : grasp->contacts) contact.point += by;
+}
+
 Graspability NotEvaluable() {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   Graspability result;
@@ -125,8 +131,13 @@ Graspability Evaluate(const TriangleMesh& mesh, const MakeGraspModel& make,
   if (!(scale > 0.0)) return NotEvaluable();
   Graspability result;
   result.scale = scale;
-  SampleAndScore(Transformed(mesh, scale, Eigen::Vector3d::Zero()), make, options, seed, object,
-                 &result);
+  // Far from the origin the last digits of contacts and normals would depend on the place.
+  const Eigen::Vector3d place = RoundPlace(mesh), origin = Eigen::Vector3d::Zero();
+  const TriangleMesh local = Transformed(mesh, 1.0, origin - place);  // exact, before it is scaled
+  SampleAndScore(Transformed(local, scale, origin), make, options, seed, object, &result);
+  if (place != origin) {
+    for (ScoredGrasp& scored : result.grasps) Move(scale * place, &scored.grasp);
+  }
   if (result.grasps.empty()) {
     result.status = GraspabilityStatus::kNoGrasps;
     return result;

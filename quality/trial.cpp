@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "antigrasp/core/rng.h"
+#include "antigrasp/mesh/place.h"
 #include "antigrasp/mesh/ray_scene.h"
 #include "antigrasp/quality/epsilon.h"
 #include "antigrasp/quality/force_closure.h"
@@ -37,7 +38,7 @@ class Bench {
  public:
   Bench(const TriangleMesh& mesh, double scale, const MetricOptions& metric,
         const TrialOptions& options)
-      : mesh_(Transformed(mesh, scale, Vector3d::Zero())),
+      : mesh_(Transformed(mesh, scale, Vector3d::Zero() - scale * RoundPlace(mesh))),
         scene_(mesh_),
         com_(CenterOfMass(mesh_)),
         poses_(StablePoses(mesh_, com_)),

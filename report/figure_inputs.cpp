@@ -119,7 +119,7 @@ std::vector<PerturbedPair> ReadPairs(const fs::path& path) {
 }
 
 fs::path MeshOf(const fs::path& folder, const char* part, const std::string& name) {
-  return folder / part / (FileNameOf(name) + ".stl");
+  return FindMeshFile(folder / part, FileNameOf(name));
 }
 
 // The pairs with both meshes whose change is nearest to the median one's, that first.

@@ -72,7 +72,7 @@ ReportShape* ShapeAt(std::int64_t i, std::vector<Row>* rows) {
 
 fs::path FileAt(std::int64_t i, const fs::path& root, const std::vector<Row>& rows) {
   const std::string& name = rows[static_cast<std::size_t>(i / 2)].object.name;
-  return root / (i % 2 == 0 ? "before" : "after") / (FileNameOf(name) + ".stl");
+  return FindMeshFile(root / (i % 2 == 0 ? "before" : "after"), FileNameOf(name));
 }
 
 // Reads the meshes that are there and evaluates them as `perturb` did; without `saved` the meshes

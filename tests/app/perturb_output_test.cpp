@@ -175,5 +175,25 @@ TEST(PerturbOutput, MeshesAndTheSheetShowBeforeAndAfterInTheirPlaces) {
   EXPECT_GT(dark(0), 3 * dark(sheet.width));
 }
 
+TEST(PerturbOutput, AnObjectThatStlWouldSpoilIsWrittenAsPlyWhereItLies) {
+  const shapes::TempFolder folder;
+  const Eigen::Vector3d place(0.0, 900000.0, 0.0);
+  PerturbedObject far = Changed();
+  WritePerturbedMeshes({far}, folder.path());  // near: STL
+  const TriangleMesh before = Transformed(far.scored.before, 1.0, place);
+  const TriangleMesh after = Transformed(far.scored.result.mesh, 1.0, place);
+  far.scored.before = before;
+  far.scored.result.mesh = after;
+  WritePerturbedMeshes({far}, folder.path());
+  EXPECT_EQ(ReadMesh(folder / "before/ball.ply").vertices, before.vertices);
+  EXPECT_EQ(ReadMesh(folder / "after/ball.ply").vertices, after.vertices);
+  // What the first call left would be taken for the result of the second.
+  EXPECT_FALSE(std::filesystem::exists(folder / "before/ball.stl"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "after/ball.stl"));
+  WritePerturbedMeshes({Changed()}, folder.path());
+  EXPECT_EQ(ReadMesh(FindMeshFile(folder / "after", "ball")).faces.size(), 20u);
+  EXPECT_FALSE(std::filesystem::exists(folder / "after/ball.ply"));
+}
+
 }  // namespace
 }  // namespace antigrasp

@@ -100,5 +100,20 @@ TEST(CompareSurfaces, GivesTheSameBitsAtAnyThreadCount) {
   EXPECT_EQ(one.memorisation->samples, four.memorisation->samples);
 }
 
+TEST(CompareSurfaces, ComparesTheSameFarFromTheOrigin) {
+  const auto moved = [](Meshes meshes) {
+    for (TriangleMesh& mesh : meshes) mesh = Transformed(mesh, 1.0, {400000.0, -800000.0, 1000.0});
+    return meshes;
+  };
+  const Meshes samples = Boxes(4, 1), reference = Boxes(4, 2), training = Boxes(4, 3);
+  const SurfaceComparison here = CompareSurfaces(samples, reference, training, Coarse());
+  const SurfaceComparison there =
+      CompareSurfaces(moved(samples), moved(reference), moved(training), Coarse());
+  const double distance = here.spread.median_distance;
+  EXPECT_NEAR(there.spread.median_distance, distance, 1e-5 * distance);
+  EXPECT_NEAR(there.samples.vendi, here.samples.vendi, 1e-4);
+  EXPECT_NEAR(there.memorisation->samples, here.memorisation->samples, 1e-5);
+}
+
 }  // namespace
 }  // namespace antigrasp

@@ -237,5 +237,14 @@ TEST(OffFile, CommentsColoursAndGluedCountsComeThrough) {
   }
 }
 
+TEST(FindMeshFile, TakesWhateverFormatIsThere) {
+  const TempFolder folder;
+  EXPECT_EQ(FindMeshFile(folder.path(), "a.b"), folder / "a.b.stl");
+  WriteMesh(folder / "a.b.ply", shapes::Cube());
+  EXPECT_EQ(FindMeshFile(folder.path(), "a.b"), folder / "a.b.ply");
+  WriteMesh(folder / "a.b.stl", shapes::Cube());
+  EXPECT_EQ(FindMeshFile(folder.path(), "a.b"), folder / "a.b.stl");
+}
+
 }  // namespace
 }  // namespace antigrasp

@@ -298,5 +298,24 @@ TEST(StablePoses, ThereAreNoneForAFlatObjectOrACentreOfMassOutside) {
   EXPECT_TRUE(StablePoses(shapes::Cube(), Vector3d(0.5, 0, 0)).empty());
 }
 
+TEST(StablePoses, AnUprightPoseKeepsTheObjectsAxesThoughRoundingTiltsIt) {
+  // The tilt's direction, here along y and x, must not turn the object about the vertical.
+  for (const Vector3d& tilt : {Vector3d(2e-6, 0.0, 1.0), Vector3d(0.0, -2e-6, 1.0)}) {
+    const Matrix3d turn =
+        Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), tilt.normalized()).toRotationMatrix();
+    int upright = 0;
+    for (const StablePose& pose : Poses(shapes::Rotated(shapes::Box({3.0, 2.0, 1.0}), turn))) {
+      if (std::abs(pose.table_from_object(2, 2)) < 0.5) continue;
+      ++upright;
+      EXPECT_NEAR(pose.table_from_object(0, 0), 1.0, 1e-5);
+      EXPECT_NEAR(
+          (pose.table_from_object * pose.table_from_object.transpose() - Matrix3d::Identity())
+              .norm(),
+          0.0, 1e-12);
+    }
+    EXPECT_EQ(upright, 2);
+  }
+}
+
 }  // namespace
 }  // namespace antigrasp

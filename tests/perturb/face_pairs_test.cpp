@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "antigrasp/perturb/cone.h"
+#include "antigrasp/perturb/validity.h"
 #include "tests/perturb/perturbed_shapes.h"
 #include "tests/support/shapes.h"
 
@@ -222,6 +223,18 @@ TEST(AntipodalPairs, FacesWithoutAreaAndEmptyMeshesHaveNone) {
   const TriangleMesh flat =
       shapes::Triangles({{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(2, 0, 0)}});
   EXPECT_EQ(CountAntipodalPairs(flat, {}), 0);
+}
+
+TEST(AntipodalPairs, JawsThatOpenToTheWidthOfACubeHoldItsSides) {
+  // Both triangles of a side have both of the side across: four pairs along each axis.
+  for (const double offset : {0.0, 125.3, 1253.7}) {
+    TriangleMesh cube =
+        Transformed(shapes::Box(Vector3d::Constant(40.0)), 1.0, {offset, -offset, 0.1 + offset});
+    cube = InSinglePrecision(cube);
+    EXPECT_EQ(AntipodalPairs(cube, {0.1, 40.0, 1e-5}).size(), 12u) << offset;
+    EXPECT_EQ(CountAntipodalPairs(cube, {0.1, 40.0, 1e-5}), 12) << offset;
+    EXPECT_EQ(AntipodalPairs(cube, {0.1, 39.99, 1e-5}).size(), 0u) << offset;
+  }
 }
 
 }  // namespace

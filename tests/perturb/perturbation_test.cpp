@@ -30,6 +30,7 @@ TEST(PairLimits, AreTheConeInRadiansAndTheWidthInTheMeshsUnit) {
   options.max_width = 0.1;
   const PairLimits by_hand = PairLimitsOf(options, 0.7, 0.05);
   EXPECT_NEAR(by_hand.cone_angle, std::numbers::pi / 6.0, 1e-15);
+  EXPECT_EQ(by_hand.width_slack, 1e-5);
   EXPECT_NEAR(by_hand.max_width, 2.0, 1e-12);  // 0.1 m of a mesh whose unit is 0.05 m
   EXPECT_NEAR(PairLimits().cone_angle, std::atan(0.5), 1e-15);
 }

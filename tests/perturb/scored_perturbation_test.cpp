@@ -4,7 +4,10 @@
 
 #include <cmath>
 
+#include "antigrasp/perturb/antipodal_rotation.h"
+#include "antigrasp/perturb/exhaustive.h"
 #include "antigrasp/perturb/random_perturbation.h"
+#include "antigrasp/perturb/search.h"
 #include "tests/support/shapes.h"
 
 namespace antigrasp {
@@ -147,6 +150,53 @@ TEST(KappaReduction, IsTheFallOfTheMeanWithAPairedInterval) {
   EXPECT_NEAR(mixed.half_width, 1.96 * 10.0 / std::sqrt(3.0), 0.01);
   const double nan = std::nan("");
   EXPECT_EQ(KappaReduction({1, nan, 1}, {1, 1, nan}).count, 1);
+}
+
+// The four algorithms, each with little to do.
+std::vector<PerturbMethod> AllMethods(const MetricOptions& metric) {
+  return {[](const auto& mesh, const auto& pairs, const auto& common, auto* rng, const auto& tell) {
+            return PerturbRandomly(mesh, pairs, common, {.iterations = 100}, rng, tell);
+          },
+          [](const auto& mesh, const auto& pairs, const auto& common, auto* rng, const auto& tell) {
+            return PerturbByRotation(mesh, pairs, common, {.max_faces = 60}, rng, tell);
+          },
+          [](const auto& mesh, const auto& pairs, const auto& common, auto* rng, const auto& tell) {
+            return PerturbExhaustively(mesh, pairs, common, {.iterations = 2}, rng, tell);
+          },
+          [metric](const auto& mesh, const auto&, const auto&, auto* rng, const auto& tell) {
+            SearchOptions options;
+            options.steps = 4;
+            return PerturbBySearch(mesh, metric, options, rng, tell);
+          }};
+}
+
+TEST(PerturbAndScore, GivesOneResultForAnObjectWhereverItLies) {
+  // Millimetres whose fractions end at 2^-18, so that moving loses nothing: what single precision
+  // at 800 m would leave of them are sixteenths.
+  TriangleMesh near = shapes::Cylinder(30.0, 110.0, 32);
+  for (Eigen::Vector3d& v : near.vertices) {
+    v = (v * 0x1p18).array().round() * 0x1p-18 + Eigen::Vector3d(0.0, 0.0, 55.0).array();
+  }
+  PerturbSettings settings = Quick(1);
+  for (const PerturbMethod& method : AllMethods(settings.metric)) {
+    settings.method = method;
+    const ScoredPerturbation a = PerturbAndScore(near, settings, 3);
+    EXPECT_EQ(a.result.failure, "");
+    EXPECT_NE(a.result.mesh.vertices, a.result.start.vertices);
+    for (const Eigen::Vector3d& place :
+         {Eigen::Vector3d(10000.0, 8000.0, 500.0), Eigen::Vector3d(400000.0, -800000.0, 0.0)}) {
+      const ScoredPerturbation b = PerturbAndScore(Transformed(near, 1.0, place), settings, 3);
+      EXPECT_EQ(b.graspability_before, a.graspability_before);
+      EXPECT_EQ(b.graspability_after, a.graspability_after);
+      EXPECT_EQ(b.pairs_after, a.pairs_after);
+      EXPECT_EQ(b.normals.mean, a.normals.mean);
+      EXPECT_EQ(b.similarity.hausdorff, a.similarity.hausdorff);
+      // And the meshes lie where the object lies.
+      EXPECT_EQ(b.result.mesh.vertices, Transformed(a.result.mesh, 1.0, place).vertices);
+      EXPECT_EQ(b.result.start.vertices, Transformed(a.result.start, 1.0, place).vertices);
+      EXPECT_EQ(b.before.vertices, Transformed(a.before, 1.0, place).vertices);
+    }
+  }
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST(SurfaceSampler, VisitsFacesInProportionToTheirArea) {
   Eigen::Vector3d share = Vector3d::Zero();  // by the direction of the normal
   Eigen::Vector3d mean = Vector3d::Zero();
   for (int i = 0; i < count; ++i) {
-    const auto [point, normal] = sampler.Draw(&rng);
+    const auto [point, normal, face] = sampler.Draw(&rng);
     share += normal.cwiseAbs() / count;
     mean += point / count;
     EXPECT_NEAR((point.cwiseAbs() - Vector3d(0.5, 1.0, 2.0)).maxCoeff(), 0.0, 1e-14);
@@ -86,7 +86,7 @@ TEST(SurfaceSampler, IsUniformWithinEachTriangle) {
   Vector3d mean = Vector3d::Zero();
   double xx = 0.0, xy = 0.0;
   for (int i = 0; i < count; ++i) {
-    const auto [p, normal] = sampler.Draw(&rng);
+    const auto [p, normal, face] = sampler.Draw(&rng);
     EXPECT_EQ(normal, Vector3d::UnitZ());
     EXPECT_GE(p.minCoeff(), 0.0);
     EXPECT_LE(p.x() + 0.5 * p.y(), 1.0 + 1e-15);
@@ -155,7 +155,7 @@ TEST(AntipodalSampler, ClosesAlongADirectionOfTheFrictionConeAboutTheInwardNorma
     for (std::uint64_t i = 0; i < 300; ++i) {
       RngStream rng(6, "grasp", i), again(6, "grasp", i);
       const auto grasp = sampler.Try(&rng);
-      const auto [point, normal] = SurfaceSampler(box).Draw(&again);
+      const auto [point, normal, face] = SurfaceSampler(box).Draw(&again);
       const Vector3d axis = DrawInCone(-normal, std::atan(friction), &again);
       if (!grasp) continue;
       ++found;

@@ -360,5 +360,25 @@ TEST(GraspabilityStatus, EveryStatusHasItsOwnName) {
   EXPECT_EQ(Name(GraspabilityStatus::kNotEvaluable), "not_evaluable");
 }
 
+TEST(Graspability, ACopyMovedByRoundNumbersHasTheSameBitsAndItsContactsLieOnIt) {
+  TriangleMesh near = shapes::Cylinder(30.0, 110.0, 32);
+  for (Eigen::Vector3d& v : near.vertices) v = (v * 0x1p18).array().round() * 0x1p-18;
+  const Eigen::Vector3d place(400000.0, -800000.0, 10000.0);
+  const Graspability a = EvaluateGraspability(near, {}, 1, 2);
+  const Graspability b = EvaluateGraspability(Transformed(near, 1.0, place), {}, 1, 2);
+  ASSERT_GT(a.value, 0.0);
+  EXPECT_EQ(b.value, a.value);
+  EXPECT_EQ(b.mean, a.mean);
+  ASSERT_EQ(b.grasps.size(), a.grasps.size());
+  for (std::size_t i = 0; i < a.grasps.size(); ++i) {
+    const Grasp &here = a.grasps[i].grasp, &there = b.grasps[i].grasp;
+    EXPECT_NEAR((there.center - here.center - b.scale * place).norm(), 0.0, 1e-9);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_NEAR((there.contacts[k].point - here.contacts[k].point - b.scale * place).norm(), 0.0,
+                  1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace antigrasp
