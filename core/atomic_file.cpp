@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <map>
+#include <regex>
 #include <sstream>
 
 #include "antigrasp/core/error.h"
@@ -31,6 +32,16 @@ fs::path FolderOf(const fs::path& target) {
   return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
+// Nobody gives such a name to a file of their own.
+std::string TemporaryName(const std::string& name, const std::string& writer) {
+  return "." + name + ".antigrasp" + writer + ".tmp";
+}
+
+bool IsTemporaryName(const std::string& name) {
+  static const std::regex pattern(R"(\..+\.antigrasp(-p?[0-9]+)?\.tmp)");
+  return std::regex_match(name, pattern);
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
@@ -47,7 +58,15 @@ AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
   if (::access(folder.c_str(), W_OK) != 0) {
     throw InputError("cannot write " + target_.string(), folder.string(), "a writable folder");
   }
-  temp_ = folder / ("." + target_.filename().string() + "." + std::to_string(::getpid()) + ".tmp");
+  // Room for what stands around it in the 255 bytes of a name.
+  const std::string name = target_.filename().string().substr(0, 200);
+  for (int writer = 1; writer == 1 || lock_->state() == FileLock::State::kTaken; ++writer) {
+    temp_ = folder / TemporaryName(name, writer == 1 ? "" : "-" + std::to_string(writer));
+    lock_.emplace(temp_);
+  }
+  // Nor can what another user left be written to.
+  if (!lock_->held() || !lock_->Write(""))
+    temp_ = folder / TemporaryName(name, "-p" + std::to_string(::getpid()));
 }
 
 AtomicFile::~AtomicFile() {
@@ -75,6 +94,22 @@ void WriteFileAtomic(const fs::path& target, std::string_view bytes) {
   AtomicFile file(target);
   file.Append(bytes);
   file.Commit();
+}
+
+int RemoveAbandonedFiles(const fs::path& folder) {
+  int removed = 0;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (!IsTemporaryName(entry.path().filename().string()) ||
+        entry.symlink_status().type() != fs::file_type::regular) {
+      continue;
+    }
+    FileLock lock(entry.path(), FileLock::Missing::kLeave);
+    if (!lock.held()) continue;  // somebody writes it
+    lock.RemoveFile();
+    ++removed;
+  }
+  return removed;
 }
 
 void RequireFile(const fs::path& path, const std::string& expected) {

@@ -2,15 +2,23 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "antigrasp/core/file_lock.h"
 
 namespace antigrasp {
 
 // A file that appears whole or not at all: write to temp_path(), then Commit() syncs it to disk and
 // renames it onto the target. Without Commit() the destructor removes the temporary file and the
 // target stays as it was. The parent folder must exist (InputError otherwise).
+//
+// The temporary file, .NAME.antigrasp.tmp, is there and locked from the beginning. What a killed
+// writer left under that name is nobody's, and the next writer of the same target takes it over. A
+// second living writer gets a name of its own (.NAME.antigrasp-2.tmp); so does one on a file system
+// without locks, by its process.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path target);
@@ -26,11 +34,16 @@ class AtomicFile {
   std::filesystem::path target_;
   std::filesystem::path temp_;
   std::ofstream out_;  // open once something was appended
+  std::optional<FileLock> lock_;
   bool committed_ = false;
 };
 
 // The same for bytes in memory.
 void WriteFileAtomic(const std::filesystem::path& target, std::string_view bytes);
+
+// Removes the temporary files of killed writers from a folder (not from the folders in it): those
+// that no living process holds. Returns how many.
+int RemoveAbandonedFiles(const std::filesystem::path& folder);
 
 // Whole file as bytes. InputError when it is missing, a directory or unreadable.
 std::string ReadFile(const std::filesystem::path& path);

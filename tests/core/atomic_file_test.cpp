@@ -109,6 +109,31 @@ TEST(AtomicFile, WhatACrashLeftUnderTheTemporaryNameIsNotKept) {
   EXPECT_EQ(FilesIn(folder.path()), 1);
 }
 
+TEST(AtomicFile, TwoWritersOfOneFileHaveTwoTemporaryOnes) {
+  const shapes::TempFolder folder;
+  const fs::path target = folder.path() / "a.txt";
+  {
+    AtomicFile first(target), second(target);
+    EXPECT_EQ(first.temp_path().filename(), ".a.txt.antigrasp.tmp");
+    EXPECT_EQ(second.temp_path().filename(), ".a.txt.antigrasp-2.tmp");
+    std::ofstream(first.temp_path()) << "first";
+    std::ofstream(second.temp_path()) << "second";
+    first.Commit();
+    EXPECT_EQ(ReadFile(target), "first");
+    second.Commit();
+  }
+  EXPECT_EQ(ReadFile(target), "second");
+  EXPECT_EQ(FilesIn(folder.path()), 1);
+}
+
+// A name may have 255 bytes.
+TEST(AtomicFile, LongNamesHaveATemporaryOneToo) {
+  const shapes::TempFolder folder;
+  const fs::path target = folder.path() / std::string(255, 'n');
+  WriteFileAtomic(target, "new");
+  EXPECT_EQ(ReadFile(target), "new");
+}
+
 TEST(AtomicFile, ANameWithoutAFolderIsInTheWorkingFolder) {
   const shapes::TempFolder folder;
   const fs::path before = fs::current_path();
