@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -23,6 +24,7 @@ struct EvaluateFlags {
   std::vector<std::string> baseline;
   std::string out;
   std::string grasps;
+  GraspFrame frame = GraspFrame::kMetres;
   std::uint64_t seed = 1;
   int threads = 0;
 };
@@ -109,7 +111,7 @@ Scores ScoreAllOf(const ObjectSource& objects, const EvaluateFlags& flags,
   }
   std::optional<AtomicFile> grasps_file;
   if (!flags.grasps.empty()) grasps_file.emplace(flags.grasps);
-  GraspTable grasps;
+  GraspTable grasps(flags.frame);
   Scores scores;
   ConsoleObserver console;
   StreamInOrder(
@@ -163,7 +165,15 @@ void AddEvaluateCommand(CLI::App* app) {
   command->add_option("--out", flags->out,
                       "scores (CSV); the constants go to the same name plus .metric.toml. "
                       "Without it the scores go to standard output");
-  command->add_option("--grasps", flags->grasps, "every sampled grasp (CSV)");
+  CLI::Option* grasps = command->add_option("--grasps", flags->grasps, "every sampled grasp (CSV)");
+  command
+      ->add_option("--frame", flags->frame,
+                   "of --grasps: metres, as the metric rescales the object, or mesh, the unit and "
+                   "frame of the input")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, GraspFrame>{
+          {"metres", GraspFrame::kMetres}, {"mesh", GraspFrame::kMesh}}))
+      ->default_str("metres")
+      ->needs(grasps);
   command->add_option("--baseline", flags->baseline,
                       "the same objects before a change (meshes, folders, SDF files; paired by "
                       "name): prints the paired difference under equal random numbers");

@@ -4,8 +4,9 @@
 
 namespace antigrasp {
 
-GraspTable::GraspTable()
-    : csv_({"object",
+GraspTable::GraspTable(GraspFrame frame)
+    : frame_(frame),
+      csv_({"object",
             "grasp",
             "p1x",
             "p1y",
@@ -35,25 +36,29 @@ GraspTable::GraspTable()
             "in1z",
             "in2x",
             "in2y",
-            "in2z"}) {}
+            "in2z",
+            "metres_per_unit"}) {}
 
 void GraspTable::Add(const std::string& object, const Graspability& score,
                      const Eigen::Vector3d& center_of_mass) {
   const auto add = [&](const Eigen::Vector3d& v) { csv_.Numbers({v.x(), v.y(), v.z()}); };
-  const Eigen::Vector3d com = score.scale * center_of_mass;
+  const bool mesh = frame_ == GraspFrame::kMesh;
+  const double divisor = mesh ? score.scale : 1.0;
+  const Eigen::Vector3d com = mesh ? center_of_mass : score.scale * center_of_mass;
   for (std::size_t g = 0; g < score.grasps.size(); ++g) {
     const auto& [grasp, quality, draws] = score.grasps[g];
     csv_.Text(object).Count(std::int64_t(g));
     for (const Contact& contact : grasp.contacts) {
-      add(contact.point);
+      add(contact.point / divisor);
       add(contact.normal);
     }
     add(grasp.axis);
-    csv_.Numbers({grasp.width, quality});
+    csv_.Numbers({grasp.width / divisor, quality});
     add(grasp.approach);
     add(com);
     add(grasp.axis);  // the two jaws' closing directions, as `quality` reads them
     add(-grasp.axis);
+    csv_.Number(score.scale);
     csv_.EndRow();
   }
 }

@@ -7,10 +7,17 @@
 
 namespace antigrasp {
 
+// The lengths and places of a table of grasps. Nothing is ever moved: a point of the user's file is
+// one of the metric's divided by Graspability::scale.
+enum class GraspFrame {
+  kMetres,  // as the metric looks at the object: rescaled
+  kMesh     // the unit and frame of the mesh that was read
+};
+
 // Every sampled grasp of scored objects, as grasps.csv holds them (docs/formats.md).
 class GraspTable {
  public:
-  GraspTable();
+  explicit GraspTable(GraspFrame frame = GraspFrame::kMetres);
   // `center_of_mass` in the unit of the mesh.
   void Add(const std::string& object, const Graspability& score,
            const Eigen::Vector3d& center_of_mass);
@@ -18,6 +25,7 @@ class GraspTable {
   std::string TakeText() { return csv_.TakeText(); }
 
  private:
+  GraspFrame frame_;
   CsvWriter csv_;
 };
 

@@ -135,6 +135,57 @@ TEST(EvaluateCli, WritesGraspsWhoseColumnsSayWhatTheyHold) {
   }
 }
 
+// The face of the box that a contact with this normal lies on, seen along the normal.
+double FaceAlong(const Eigen::Vector3d& normal, const BoundingBox& box) {
+  double along = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    along += normal[axis] * (normal[axis] > 0.0 ? box.max : box.min)[axis];
+  }
+  return along;
+}
+
+TEST(EvaluateCli, WritesGraspsInTheFrameOfTheInput) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  // 90.7 mm wide, somewhere on a table.
+  const TriangleMesh mesh = Transformed(shapes::Box({1.0, 1.5, 2.0}), 90.7, {513.7, -88.3, 1021.9});
+  WriteMesh(folder / "box.obj", mesh);
+  const BoundingBox box = Bounds(ReadMesh(folder / "box.obj"));
+  const std::string evaluate = "evaluate " + dir + "box.obj --num-grasps 12 --num-draws 2 --out " +
+                               dir + "s.csv --grasps " + dir;
+  ASSERT_EQ(Antigrasp(evaluate + "metres.csv").code, 0);
+  ASSERT_EQ(Antigrasp(evaluate + "mesh.csv --frame mesh").code, 0);
+  const auto metres = CsvRows(folder / "metres.csv"), rows = CsvRows(folder / "mesh.csv");
+  ASSERT_EQ(rows.size(), 12U);
+  ASSERT_EQ(metres.size(), 12U);
+  const double size = 1021.9;
+  for (std::size_t g = 0; g < rows.size(); ++g) {
+    const double scale = Number(metres[g], "metres_per_unit");
+    EXPECT_NEAR(scale, 0.04 / 90.7, 1e-15);
+    EXPECT_EQ(Number(rows[g], "metres_per_unit"), scale);
+    for (const char* contact : {"1", "2"}) {
+      const Eigen::Vector3d point = Vector(rows[g], std::string("p") + contact);
+      const Eigen::Vector3d normal = Vector(rows[g], std::string("n") + contact);
+      EXPECT_NEAR(normal.cwiseAbs().maxCoeff(), 1.0, 1e-12);
+      EXPECT_NEAR(point.dot(normal), FaceAlong(normal, box), 1e-12 * size);
+      EXPECT_TRUE((point.array() >= box.min.array() - 1e-12 * size).all());
+      EXPECT_TRUE((point.array() <= box.max.array() + 1e-12 * size).all());
+      // What the table in metres says is the same point.
+      EXPECT_LT((Vector(metres[g], std::string("p") + contact) / scale - point).norm(),
+                1e-12 * size);
+      EXPECT_EQ(Vector(metres[g], std::string("n") + contact), normal);
+    }
+    EXPECT_NEAR((Vector(rows[g], "p2") - Vector(rows[g], "p1")).norm(), Number(rows[g], "width"),
+                1e-12 * size);
+    EXPECT_LT((Vector(rows[g], "com") - (box.min + box.max) / 2.0).norm(), 1e-12 * size);
+    EXPECT_LT((Vector(metres[g], "com") / scale - Vector(rows[g], "com")).norm(), 1e-12 * size);
+    EXPECT_EQ(rows[g].at("robust_quality"), metres[g].at("robust_quality"));
+  }
+  cli::ExpectRefused("evaluate " + dir + "box.obj --frame mesh", "--frame requires --grasps");
+  cli::ExpectRefused("evaluate " + dir + "box.obj --grasps " + dir + "g.csv --frame inches",
+                     "--frame");
+}
+
 TEST(QualityCli, FindsTheEpsilonOfEveryGraspThatEvaluateWritesWhereverTheObjectLies) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/";
