@@ -10,6 +10,7 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/train/episode_loop.h"
 #include "antigrasp/train/provenance.h"
+#include "antigrasp/train/run_lock.h"
 
 namespace antigrasp {
 namespace {
@@ -29,6 +30,12 @@ std::string ModelToml(ModelOptions model) {
   OptionTable table;
   Bind(&table, &model);
   return table.Dump();
+}
+
+void RequireNoRun(const RunFolder& run) {
+  if (!run.HoldsARun()) return;
+  throw InputError("a run is already there", run.root.string(),
+                   "a new folder, --resume to go on, or --overwrite to start again");
 }
 
 // Networks to start from must be those the configuration describes.
@@ -72,6 +79,7 @@ RunResult Finish(const RunConfig& config, const RunFolder& folder, ProvenanceRec
   result.stages = RunEpisodes(config, folder, make(config).get(), recorder);
   if (config.cem.control) {
     const RunFolder control{folder.Control()};
+    const RunLock lock(control);
     if (!control.HoldsARun()) ForkControl(config, folder, control, make);
     spdlog::info("control run: the same retraining on elites drawn at random");
     const RunConfig forked = ConfigOfRun(control.root);
@@ -92,13 +100,12 @@ RunConfig ConfigOfRun(const fs::path& folder) {
 RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver* observer,
                    const ShapeModelMaker& make) {
   const RunFolder run{folder};
-  if (run.HoldsARun()) {
-    throw InputError("a run is already there", folder.string(),
-                     "a new folder, --resume to go on, or --overwrite to start again");
-  }
+  RequireNoRun(run);
   Validate(config, "configuration");
   RequireSameModel(config);
   make(config);  // refuses a device that is not there, first
+  const RunLock lock(run);
+  RequireNoRun(run);  // that another process has begun and left
   ProvenanceRecorder recorder(run, ProvenanceNow(config), observer);
   const ShapeSet prior = PriorOf(config, &recorder);
   NetworkValuesOf(prior, config.model, config.prior_file);  // refuses an unusable set, too
@@ -111,6 +118,7 @@ RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver*
 RunResult ResumeRun(const fs::path& folder, RunObserver* observer, const ShapeModelMaker& make) {
   const RunFolder run{folder};
   const RunConfig config = ConfigOfRun(folder);
+  const RunLock lock(run);
   ProvenanceRecorder recorder(run, ReadProvenance(run), observer);
   return Finish(config, run, &recorder, make);
 }

@@ -22,12 +22,14 @@ struct RunResult {
 // remesh, reject, score, keep the least graspable and retrain. `make` puts another shape model in
 // the GAN's place. Every file lands in `folder`, every step of it can be interrupted and resumed
 // with equal bytes on the CPU at equal threads.
-// InputError: the folder already holds a run, or the prior file is unusable. Interrupted: state
+// InputError: the folder already holds a run, another process trains it (train/run_lock.h), or the
+// prior file is unusable. Interrupted: state
 // saved. RuntimeFailure: non-finite losses or no usable sample; the last checkpoint is intact.
 RunResult StartRun(const RunConfig& config, const std::filesystem::path& folder,
                    RunObserver* observer, const ShapeModelMaker& make = MakeGan);
 
-// Goes on where the folder's last checkpoint stands; a finished run only reports its numbers.
+// Goes on where the folder's last checkpoint stands; a finished run only reports its numbers. What
+// a killed process left half written is removed. InputError: another process trains the run.
 // `make`: as the run was started with.
 RunResult ResumeRun(const std::filesystem::path& folder, RunObserver* observer,
                     const ShapeModelMaker& make = MakeGan);

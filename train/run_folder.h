@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace antigrasp {
 
@@ -25,7 +26,10 @@ struct RunFolder {
 
   bool HoldsARun() const { return std::filesystem::exists(Config()); }
 
-  // Deletes what a run writes and nothing else that may lie in the folder.
+  std::vector<std::filesystem::path> Episodes() const;  // the folders that are there
+
+  // Deletes what a run writes and nothing else that may lie in the folder. InputError when another
+  // process trains the run.
   void Remove() const;
 };
 

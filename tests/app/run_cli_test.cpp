@@ -156,6 +156,33 @@ TEST(RunCli, AFinerGridGoesThroughEveryCommand) {
 
 // Over ten seconds: a third of it is LibTorch, loaded by some twenty-five processes, and the runs
 // are of the size below which the generator makes no solids.
+TEST(RunCli, ASecondProcessIsRefusedInALineAndAKilledOneBlocksNobody) {
+  const TempFolder folder;
+  const std::string run = (folder / "run").string();
+  folder.Write("run.toml", kSettings);
+  // Killed when the other has had its answer: `$!` is the process that trains.
+  const Outcome outcome = Shell(
+      std::string(ANTIGRASP_BINARY) + " train " + (folder / "run.toml").string() +
+      " --set cem.prior_iterations=100000 --out " + run + " >/dev/null 2>&1 & first=$!; " +
+      "for i in $(seq 600); do [ -e " + run + "/checkpoint.pt ] && break; sleep 0.1; done; " +
+      ANTIGRASP_BINARY + " train --resume " + run + "; echo code $? of $first; kill -KILL $first");
+  const std::string pid = outcome.text.substr(outcome.text.rfind(' ') + 1);
+  EXPECT_TRUE(
+      outcome.text.starts_with("antigrasp: process " + pid.substr(0, pid.size() - 1) + " on "))
+      << outcome.text;
+  EXPECT_NE(outcome.text.find(" trains this run (" + run + "): expected one process at a time"),
+            std::string::npos)
+      << outcome.text;
+  EXPECT_NE(outcome.text.find("\ncode 2 of "), std::string::npos) << outcome.text;
+  EXPECT_TRUE(fs::exists(folder / "run/.lock"));
+  folder.Write("run/.checkpoint.pt.antigrasp.tmp", "half");
+  const Outcome resumed =
+      Shell(std::string("timeout -s INT 3 ") + ANTIGRASP_BINARY + " train --resume " + run);
+  EXPECT_NE(resumed.text.find("removed 1 unfinished files"), std::string::npos) << resumed.text;
+  EXPECT_FALSE(fs::exists(folder / "run/.checkpoint.pt.antigrasp.tmp"));
+  EXPECT_FALSE(fs::exists(folder / "run/.lock"));
+}
+
 TEST(RunCli, ARunCanBeKilledResumedSampledAndExported) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/";
