@@ -49,8 +49,7 @@ void RequireSameModel(const RunConfig& config) {
 }
 
 // The control begins where the run it belongs to ended episode 0: same networks, same prior.
-void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder& control,
-                 const ShapeModelMaker& make) {
+void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder& control) {
   RunConfig forked = config;
   forked.cem.select = EliteOrder::kRandom;
   forked.cem.control = false;
@@ -59,9 +58,7 @@ void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder&
   WriteFileAtomic(control.Prior(), ReadFile(run.Prior()));
   Checkpoint checkpoint = ReadCheckpoint(run.EpisodeCheckpoint(0));
   checkpoint.config = ToToml(forked);
-  const std::unique_ptr<ShapeModel> model = make(forked);
-  ReadNetworks(run.EpisodeCheckpoint(0), [&](auto* archive) { model->Load(archive); });
-  WriteCheckpoint(control.Latest(), checkpoint, [&](auto* archive) { model->Save(archive); });
+  WriteCheckpoint(control.Latest(), checkpoint);
   // Last: a folder with a configuration holds a run.
   WriteFileAtomic(control.Config(), checkpoint.config);
 }
@@ -72,7 +69,7 @@ RunResult Finish(const RunConfig& config, const RunFolder& folder, ProvenanceRec
   result.stages = RunEpisodes(config, folder, make(config).get(), recorder);
   if (config.cem.control) {
     const RunFolder control{folder.Control()};
-    if (!control.HoldsARun()) ForkControl(config, folder, control, make);
+    if (!control.HoldsARun()) ForkControl(config, folder, control);
     spdlog::info("control run: the same retraining on elites drawn at random");
     const RunConfig forked = ConfigOfRun(control.root);
     result.control = RunEpisodes(forked, control, make(forked).get(), recorder);

@@ -1,15 +1,12 @@
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <vector>
 
 #include "antigrasp/core/observer.h"
-#include "antigrasp/train/gan_trainer.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_folder.h"
 #include "antigrasp/train/shape_model.h"
-#include "antigrasp/train/stage.h"
+#include "antigrasp/train/statistics.h"
 
 namespace antigrasp {
 
@@ -18,13 +15,5 @@ namespace antigrasp {
 // statistics.csv. InputError: the checkpoint is another model's.
 std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolder& folder,
                                          ShapeModel* model, RunObserver* observer);
-
-// Makes the fresh model that a configuration describes.
-using ShapeModelMaker = std::function<std::unique_ptr<ShapeModel>(const RunConfig&)>;
-std::unique_ptr<ShapeModel> MakeGan(const RunConfig& config);  // around a MakeTrainer
-
-// Fresh networks as the configuration says, on its device. InputError when LibTorch does not offer
-// the device here. Also sets LibTorch's threads.
-GanTrainer MakeTrainer(const RunConfig& config);
 
 }  // namespace antigrasp

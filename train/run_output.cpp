@@ -37,23 +37,6 @@ std::string StageName(int episode, const std::string& doing) {
   return StageName(episode) + ": " + doing;
 }
 
-LossRow RowOf(std::int64_t step, const std::vector<double>& scalars) {
-  LossRow row = {double(step)};
-  row.insert(row.end(), scalars.begin(), scalars.end());
-  return row;
-}
-
-std::string LossesCsv(const std::vector<std::string>& scalars, const std::vector<LossRow>& rows) {
-  std::vector<std::string> columns = {"step"};
-  columns.insert(columns.end(), scalars.begin(), scalars.end());
-  CsvWriter csv(columns);
-  for (const LossRow& row : rows) {
-    for (const double value : row) csv.NumberOrGap(value);
-    csv.EndRow();
-  }
-  return csv.text();
-}
-
 std::vector<std::pair<std::string, double>> StageScalars(const StageStatistics& row,
                                                          const std::vector<StageStatistics>& rows) {
   const StageStatistics* prior = FindStage(rows, -1);

@@ -11,6 +11,7 @@
 #include "antigrasp/core/rng.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/train/gan_model.h"
+#include "antigrasp/train/loss_table.h"
 #include "antigrasp/train/sample_name.h"
 #include "tests/support/csv_rows.h"
 #include "tests/support/shapes.h"
@@ -52,8 +53,9 @@ TEST(LossesCsv, HasEveryNumberOfAnUpdateUnderItsOwnName) {
   report.gradient_generator = 4.5;
   report.rate_discriminator = 5.5;
   report.rate_generator = 6.5;
-  EXPECT_EQ(LossesCsv(GanScalarNames(), {RowOf(20, GanScalars(report, 7.5)),
-                                         RowOf(30, GanScalars(report, std::nan("")))}),
+  EXPECT_EQ(LossesCsv({GanScalarNames(),
+                       {RowOf(20, GanScalars(report, 7.5)),
+                        RowOf(30, GanScalars(report, std::nan("")))}}),
             "step,loss_discriminator,loss_generator,gradient_discriminator,gradient_generator,"
             "rate_discriminator,rate_generator,largest_sigma\n"
             "20,1.5,2.5,3.5,4.5,5.5,6.5,7.5\n"

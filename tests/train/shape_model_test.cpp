@@ -14,6 +14,7 @@
 #include "antigrasp/train/cem_run.h"
 #include "antigrasp/train/elites.h"
 #include "antigrasp/train/scalar_log.h"
+#include "antigrasp/train/statistics_table.h"
 #include "tests/support/csv_rows.h"
 #include "tests/support/temp_folder.h"
 #include "tests/train/run_files.h"
@@ -65,7 +66,7 @@ RunConfig WithPrior(const TempFolder& folder, RunConfig config) {
 
 SphereModel StateOf(const RunConfig& config, const fs::path& checkpoint) {
   SphereModel model(config);
-  ReadNetworks(checkpoint, [&](auto* archive) { model.Load(archive); });
+  model.Load(ReadCheckpoint(checkpoint).networks, checkpoint.string());
   return model;
 }
 
@@ -166,12 +167,18 @@ TEST(ShapeModel, ACheckpointOfAnotherModelIsRefused) {
   config.cem.episodes = 0;
   StartRun(config, folder / "run", &observer, MakeSpheres);
   const RunFolder run{folder / "run"};
-  EXPECT_THROW(ResumeRun(run.root, &observer), InputError);  // the GAN finds no networks
+  try {
+    ResumeRun(run.root, &observer);
+    FAIL() << "the GAN went on with spheres";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "networks of another shape model (" + run.Latest().string() +
+                  "): expected those of a GAN (average/..., discriminator/...)");
+  }
   // Its tensors, but losses of the GAN.
-  const SphereModel model = StateOf(config, run.Latest());
   Checkpoint checkpoint = ReadCheckpoint(run.Latest());
   checkpoint.losses = torch::zeros({2, 8}, torch::kDouble);
-  WriteCheckpoint(run.Latest(), checkpoint, [&](auto* archive) { model.Save(archive); });
+  WriteCheckpoint(run.Latest(), checkpoint);
   try {
     ResumeRun(run.root, &observer, MakeSpheres);
     FAIL() << "losses of another model were accepted";
