@@ -61,7 +61,7 @@ class Gallery {
     if (episode < 0) prior_names = ReadShapeNames(source);
     const int samples = episode < 0 ? static_cast<int>(prior_names.size()) : config_.cem.samples;
     const GalleryChoice choice = ChooseSamples(rows, samples, episode, per_stage, config_.seed);
-    std::vector<ScoredSample> made;
+    ScoredStage made;
     try {
       made = StageSamples(folder_, config_, episode, choice.indices, observer_, make_);
     } catch (const OtherShapeModel& other) {
@@ -72,9 +72,9 @@ class Gallery {
     report_->groups.push_back({stage.id, stage.label, choice.note});
     const auto elites = ElitesOf(folder_, episode);
     int differ = 0;
-    for (std::size_t j = 0; j < made.size(); ++j) {
+    for (std::size_t j = 0; j < made.objects.size(); ++j) {
       const auto index = static_cast<std::size_t>(choice.indices[j]);
-      ReportObject object = ObjectOf(made[j]);
+      ReportObject object = ObjectOf(made.objects[j], made.scores[j]);
       object.name = episode < 0 ? prior_names[index] : SampleName(choice.indices[j]);
       if (elites) object.elite = elites->contains(choice.indices[j]);
       AddNumbers(choice, j, rows, &object);
@@ -83,19 +83,18 @@ class Gallery {
     }
     if (differ > 0) {
       report_->missing.push_back(
-          stage.label + ": " + std::to_string(differ) + " of " + std::to_string(made.size()) +
+          stage.label + ": " + std::to_string(differ) + " of " + std::to_string(made.objects.size()) +
           " objects score otherwise than in the run's table; it was made on another device or by "
           "another version.");
     }
   }
 
  private:
-  ReportObject ObjectOf(const ScoredSample& sample) const {
+  ReportObject ObjectOf(const RemeshResult& sample, const Graspability& score) const {
     ReportObject object;
     object.group = report_->groups.size() - 1;
-    object.status =
-        std::string(sample.object.ok() ? Name(sample.score.status) : Name(sample.object.status));
-    object.shape = ShapeOf(sample.object.mesh, sample.score);
+    object.status = std::string(sample.ok() ? Name(score.status) : Name(sample.status));
+    object.shape = ShapeOf(sample.mesh, score);
     return object;
   }
 

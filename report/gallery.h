@@ -19,8 +19,8 @@ struct GalleryChoice {
 GalleryChoice ChooseSamples(const std::vector<ScoreRow>& scores, int samples, int stage,
                             int per_stage, std::uint64_t seed);
 
-// Adds the gallery to the report, of whose run the stages are: of every one that can be made again a
-// group and its objects, with the grasps that the run evaluated. What cannot be made, or scores
+// Adds the gallery to the report, of whose run the stages are: of every one that can be made again
+// a group and its objects, with the grasps that the run evaluated. What cannot be made, or scores
 // otherwise than the run says, becomes a sentence. `config`: the run's, with the threads to use;
 // `make`: the shape model that it was started with.
 void AddGallery(const RunRecord& run, const RunConfig& config, int per_stage,

@@ -33,9 +33,8 @@ std::vector<FigureExample> Examples(const RunFolder& run, const RunConfig& confi
   const std::vector<std::int64_t> indices = FirstUsable(graspabilities, count);
   std::vector<FigureExample> examples(indices.size());
   if (indices.empty() || !fs::exists(source)) return {};
-  const torch::Tensor values =
-      StageValues(run, config, episode, indices,
-                  observer->Phase(StageName(episode, "sampling")), make);
+  const torch::Tensor values = StageValues(run, config, episode, indices,
+                                           observer->Phase(StageName(episode, "sampling")), make);
   ParallelFor(std::ssize(indices), config.threads, [&](std::int64_t j) {
     const auto slot = static_cast<std::size_t>(j);
     examples[slot].mesh = Remesh(GridOf(values[j], config.model)).mesh;
@@ -80,8 +79,7 @@ RowFigure RunFigure(const fs::path& folder, std::vector<int> episodes, int examp
     row.gap = "not scored";
     row.values = Divided(graspabilities, mean);
     row.reference = Divided(by_first ? first : prior, mean);
-    row.examples =
-        Examples(run.folder, config, episode, graspabilities, examples, make, observer);
+    row.examples = Examples(run.folder, config, episode, graspabilities, examples, make, observer);
     figure.rows.push_back(std::move(row));
   }
   return figure;

@@ -1,6 +1,7 @@
 #include "antigrasp/train/cem_run.h"
 
 #include <spdlog/spdlog.h>
+#include <torch/types.h>
 
 #include <sstream>
 
@@ -10,6 +11,7 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/train/episode_loop.h"
 #include "antigrasp/train/provenance.h"
+#include "antigrasp/train/stage.h"
 
 namespace antigrasp {
 namespace {
@@ -23,6 +25,15 @@ ShapeSet PriorOf(const RunConfig& config, RunObserver* observer) {
   options.threads = config.threads;
   return MakePriorSet(
       options, observer->Phase("making " + std::to_string(options.count) + " " + options.kind));
+}
+
+// The prior set's network values; the set itself goes to the folder, unless it is unusable.
+torch::Tensor MakePrior(const RunConfig& config, const RunFolder& run, RunObserver* observer) {
+  const ShapeSet set = PriorOf(config, observer);
+  torch::Tensor values = NetworkValuesOf(set, config.model, config.prior_file);
+  MakeFolder(run.root);
+  WriteShapeSet(run.Prior(), set);
+  return values;
 }
 
 std::string ModelToml(ModelOptions model) {
@@ -63,16 +74,16 @@ void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder&
   WriteFileAtomic(control.Config(), checkpoint.config);
 }
 
-RunResult Finish(const RunConfig& config, const RunFolder& folder, ProvenanceRecorder* recorder,
-                 const ShapeModelMaker& make) {
+RunResult Finish(const RunConfig& config, const RunFolder& folder, const torch::Tensor& prior,
+                 ProvenanceRecorder* recorder, const ShapeModelMaker& make) {
   RunResult result;
-  result.stages = RunEpisodes(config, folder, make(config).get(), recorder);
+  result.stages = RunEpisodes(config, folder, make(config).get(), prior, recorder);
   if (config.cem.control) {
     const RunFolder control{folder.Control()};
     if (!control.HoldsARun()) ForkControl(config, folder, control);
     spdlog::info("control run: the same retraining on elites drawn at random");
     const RunConfig forked = ConfigOfRun(control.root);
-    result.control = RunEpisodes(forked, control, make(forked).get(), recorder);
+    result.control = RunEpisodes(forked, control, make(forked).get(), prior, recorder);
   }
   recorder->Finish();
   return result;
@@ -97,19 +108,18 @@ RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver*
   RequireSameModel(config);
   make(config);  // refuses a device that is not there, first
   ProvenanceRecorder recorder(run, ProvenanceNow(config), observer);
-  const ShapeSet prior = PriorOf(config, &recorder);
-  NetworkValuesOf(prior, config.model, config.prior_file);  // refuses an unusable set, too
-  MakeFolder(folder);
-  WriteShapeSet(run.Prior(), prior);
+  const torch::Tensor prior = MakePrior(config, run, &recorder);
   WriteFileAtomic(run.Config(), ToToml(config));
-  return Finish(config, run, &recorder, make);
+  return Finish(config, run, prior, &recorder, make);
 }
 
 RunResult ResumeRun(const fs::path& folder, RunObserver* observer, const ShapeModelMaker& make) {
   const RunFolder run{folder};
   const RunConfig config = ConfigOfRun(folder);
   ProvenanceRecorder recorder(run, ReadProvenance(run), observer);
-  return Finish(config, run, &recorder, make);
+  const torch::Tensor prior =
+      NetworkValuesOf(ReadShapeSet(run.Prior()), config.model, run.Prior().string());
+  return Finish(config, run, prior, &recorder, make);
 }
 
 }  // namespace antigrasp

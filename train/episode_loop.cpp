@@ -28,7 +28,7 @@ constexpr int kRecordEvery = 10;  // updates between rows of losses.csv
 class FolderLoop {
  public:
   FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeModel* model,
-             RunObserver* observer);
+             const torch::Tensor& prior, RunObserver* observer);
   std::vector<StageStatistics> Run();
 
  private:
@@ -56,14 +56,12 @@ class FolderLoop {
 };
 
 FolderLoop::FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeModel* model,
-                       RunObserver* observer)
+                       const torch::Tensor& prior, RunObserver* observer)
     : config_(config),
       folder_(folder),
       model_(model),
       observer_(observer),
-      loop_(config, model,
-            NetworkValuesOf(ReadShapeSet(folder.Prior()), config.model, folder.Prior().string()),
-            GraspabilityScorer(config, observer), observer),
+      loop_(config, model, prior, GraspabilityScorer(config, observer), observer),
       losses_{model->ScalarNames(), {}} {}
 
 std::vector<StageStatistics> FolderLoop::Run() {
@@ -172,8 +170,7 @@ void FolderLoop::Record(const Episode& finished) {
   WriteFileAtomic(folder_.Scores(episode()), StageScoresCsv(episode(), finished.scored));
   WriteFileAtomic(folder_.Losses(episode()), LossesCsv(losses_));
   WriteFileAtomic(folder_.Statistics(), StatisticsToCsv(rows));
-  WriteElites(folder_.Elites(episode()), finished.scored, elites, episode(),
-              config_);
+  WriteElites(folder_.Elites(episode()), finished.elites, elites, episode(), config_);
   WriteSampleSheet(folder_.Episode(episode()) / "samples.png", finished.scored, config_);
   log_->Add(loop_.UpdatesSoFar(), StageScalars(finished.row, rows));
   LogStage(finished.row, rows);
@@ -209,8 +206,9 @@ void FolderLoop::Save(const fs::path& path, bool finished) const {
 }  // namespace
 
 std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolder& folder,
-                                         ShapeModel* model, RunObserver* observer) {
-  return FolderLoop(config, folder, model, observer).Run();
+                                         ShapeModel* model, const torch::Tensor& prior,
+                                         RunObserver* observer) {
+  return FolderLoop(config, folder, model, prior, observer).Run();
 }
 
 }  // namespace antigrasp

@@ -313,9 +313,7 @@ void GanTrainer::TakeFolded(GanTrainer* other) {
   t.SetProgress(from.Progress());
 }
 
-NamedTensors GanTrainer::State() const {
-  return impl_->State(impl_->Progress(), impl_->latent);
-}
+NamedTensors GanTrainer::State() const { return impl_->State(impl_->Progress(), impl_->latent); }
 
 void GanTrainer::Load(const NamedTensors& state, const std::string& origin) {
   RequireGan(state, origin);

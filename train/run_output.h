@@ -28,7 +28,9 @@ void LogStage(const StageStatistics& row, const std::vector<StageStatistics>& ro
 // moves: warns below half of episode 0's coverage and above 20 % near-duplicates.
 void WarnIfCollapsed(const StageStatistics& row, const std::vector<StageStatistics>& rows);
 
-void WriteElites(const std::filesystem::path& path, const ScoredStage& scored,
+// `values`: network values of the elites as the next episode learns from them; `elites`: which
+// samples they are.
+void WriteElites(const std::filesystem::path& path, const torch::Tensor& values,
                  const std::vector<std::int64_t>& elites, int episode, const RunConfig& config);
 
 // The first 32 samples that have a surface, usable or not, as a picture.

@@ -29,11 +29,11 @@ std::vector<double> GraspabilitiesOf(const StageRecord* stage);
 // missing. Networks and grids stay where they are.
 struct RunRecord {
   RunFolder folder;
-  std::string config_toml;                // config.toml as it is
-  std::optional<RunConfig> config;        // read as NetworksFromToml does; none without the file
-  std::optional<Provenance> provenance;   // none without the file
-  bool has_statistics = false;            // the file is there
-  std::vector<StageRecord> stages;        // of which anything is there, ascending
+  std::string config_toml;               // config.toml as it is
+  std::optional<RunConfig> config;       // read as NetworksFromToml does; none without the file
+  std::optional<Provenance> provenance;  // none without the file
+  bool has_statistics = false;           // the file is there
+  std::vector<StageRecord> stages;       // of which anything is there, ascending
 
   const StageRecord* Find(int episode) const;  // nullptr: nothing of it is there
 };

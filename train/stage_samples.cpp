@@ -66,20 +66,12 @@ torch::Tensor StageValues(const RunFolder& run, const RunConfig& config, int sta
                    : SampledValues(run, config, stage, indices, progress, make);
 }
 
-std::vector<ScoredSample> StageSamples(const RunFolder& run, const RunConfig& config, int stage,
-                                       const std::vector<std::int64_t>& indices,
-                                       RunObserver* observer, const ShapeModelMaker& make) {
+ScoredStage StageSamples(const RunFolder& run, const RunConfig& config, int stage,
+                         const std::vector<std::int64_t>& indices, RunObserver* observer,
+                         const ShapeModelMaker& make) {
   const torch::Tensor values = StageValues(
       run, config, stage, indices, observer->Phase(StageName(stage, "sampling")), make);
-  std::vector<ScoredSample> samples(indices.size());
-  ParallelFor(
-      std::ssize(indices), config.threads,
-      [&](std::int64_t j) {
-        const auto slot = static_cast<std::size_t>(j);
-        samples[slot] = ScoreSample(values[j], indices[slot], config);
-      },
-      observer->Phase(StageName(stage, "scoring")));
-  return samples;
+  return ScoreSamples(values, indices, config, observer->Phase(StageName(stage, "scoring")));
 }
 
 }  // namespace antigrasp

@@ -26,9 +26,8 @@ torch::Tensor StageValues(const RunFolder& run, const RunConfig& config, int sta
                           const ShapeModelMaker& make = MakeGan);
 
 // The same, remeshed and scored as the run scored them: item j is sample indices[j].
-std::vector<ScoredSample> StageSamples(const RunFolder& run, const RunConfig& config, int stage,
-                                       const std::vector<std::int64_t>& indices,
-                                       RunObserver* observer,
-                                       const ShapeModelMaker& make = MakeGan);
+ScoredStage StageSamples(const RunFolder& run, const RunConfig& config, int stage,
+                         const std::vector<std::int64_t>& indices, RunObserver* observer,
+                         const ShapeModelMaker& make = MakeGan);
 
 }  // namespace antigrasp

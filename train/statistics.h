@@ -9,8 +9,8 @@
 
 namespace antigrasp {
 
-// One row of a run (statistics_table.h): what was sampled at a stage and how hard it is to grasp. Stage -1 is the prior
-// set, 0 the GAN trained on it, k the GAN retrained k times.
+// One row of a run (statistics_table.h): what was sampled at a stage and how hard it is to grasp.
+// Stage -1 is the prior set, 0 the GAN trained on it, k the GAN retrained k times.
 struct StageStatistics {
   int stage = -1;
   int samples = 0;

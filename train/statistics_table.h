@@ -8,7 +8,8 @@
 
 namespace antigrasp {
 
-// statistics.csv (docs/formats.md): a header and a row a stage, a number in every field ("nan": none).
+// statistics.csv (docs/formats.md): a header and a row a stage, a number in every field ("nan":
+// none).
 std::string StatisticsToCsv(const std::vector<StageStatistics>& rows);
 
 // Back, of a file and of a text, as a checkpoint holds it. InputError naming the file or `origin`.

@@ -58,8 +58,7 @@ TEST(RunReport, OfAnotherShapeModelHasItsScalarsAndTheObjectsItScored) {
   const TempFolder folder;
   StartSpheres(folder);
   StoppingObserver observer;
-  const Report report =
-      RunReport(RunFolder{folder / "run"}, Settings(), &observer, MakeSpheres);
+  const Report report = RunReport(RunFolder{folder / "run"}, Settings(), &observer, MakeSpheres);
   EXPECT_TRUE(report.missing.empty()) << report.missing.front();  // every object scores as it did
   const json data = json::parse(EncodeReport(report, {}).json);
   ASSERT_EQ(data["run"]["losses"].size(), 3U);  // episodes 0 and 1, and 1 of the control
@@ -74,10 +73,14 @@ TEST(RunReport, OfAnotherShapeModelHasItsScalarsAndTheObjectsItScored) {
   ASSERT_EQ(data["objects"].size(), 12U);
   for (const json& object : data["objects"]) {
     EXPECT_EQ(object["status"], "ok") << object["name"];
-    // Radius 0.25 in the prior set, 0.25 (1 + tanh(z) / 5) in episode 0, once more that far from the
-    // elites of it in episode 1.
+    // Radius 0.25 in the prior set, 0.25 (1 + tanh(z) / 5) in episode 0, once more that far from
+    // the elites of it in episode 1.
     const double extent = object["mesh"]["extent"];
-    EXPECT_NEAR(extent, 0.5, object["group"] == 0 ? 0.01 : object["group"] == 1 ? 0.11 : 0.23) << object["name"];
+    EXPECT_NEAR(extent, 0.5,
+                object["group"] == 0   ? 0.01
+                : object["group"] == 1 ? 0.11
+                                       : 0.23)
+        << object["name"];
   }
 }
 

@@ -119,10 +119,9 @@ TEST(WriteElites, KeepsTheirNumbersTheirGridsAndHowTheyWereChosen) {
   const TempFolder folder;
   RunConfig config;
   config.seed = 5;
-  ScoredStage scored;
-  scored.values = torch::zeros({4, 1, 32, 32, 32});
-  for (int i = 0; i < 4; ++i) scored.values[i][0][3][2][1] = 0.1 * (i + 1);
-  WriteElites(folder / "elites.h5", scored, {1, 3}, 2, config);
+  const torch::Tensor values = torch::zeros({2, 1, 32, 32, 32});
+  for (int k = 0; k < 2; ++k) values[k][0][3][2][1] = 0.2 * (k + 1);
+  WriteElites(folder / "elites.h5", values, {1, 3}, 2, config);
   ShapeSet set = ReadShapeSet(folder / "elites.h5");
   EXPECT_EQ(set.kind, "elites");
   EXPECT_EQ(set.seed, 5U);
@@ -133,7 +132,7 @@ TEST(WriteElites, KeepsTheirNumbersTheirGridsAndHowTheyWereChosen) {
   EXPECT_NEAR(set.grids[0].values[node], 0.02F, 1e-7);  // 0.2 and 0.4 of the truncation
   EXPECT_NEAR(set.grids[1].values[node], 0.04F, 1e-7);
   config.cem.select = EliteOrder::kRandom;
-  WriteElites(folder / "elites.h5", scored, {1, 3}, 2, config);
+  WriteElites(folder / "elites.h5", values, {1, 3}, 2, config);
   EXPECT_EQ(ReadShapeSet(folder / "elites.h5").provenance,
             "antigrasp train, episode 2, random samples");
 }

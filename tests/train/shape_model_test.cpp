@@ -146,6 +146,32 @@ TEST(ShapeModel, SpheresGiveEqualBytesAfterAnyInterruption) {
   ExpectSameFiles(folder / "a", folder / "stopped");
 }
 
+// The network values that elites.h5 of an episode gives to whoever trains on it.
+torch::Tensor EliteValues(const RunFolder& run, int episode, const RunConfig& config) {
+  return NetworkValuesOf(ReadShapeSet(run.Elites(episode)), config.model, "elites.h5");
+}
+
+TEST(ShapeModel, ElitesOnFileAreBitForBitWhatTheNextEpisodeLearnsFrom) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  RunConfig config = WithPrior(folder, TinySpheres());
+  config.cem.redistance = true;
+  config.cem.prior_fraction = 0.5;
+  config.cem.episodes = 1;
+  StartRun(config, folder / "run", &observer, MakeSpheres);
+  const RunFolder run{folder / "run"};
+  const torch::Tensor learnt = ReadCheckpoint(run.EpisodeCheckpoint(1)).shapes;
+  ASSERT_EQ(learnt.size(0), 5);  // three elites and two of the prior set
+  EXPECT_TRUE(torch::equal(EliteValues(run, 0, config), learnt.slice(0, 0, 3)));
+  // They are the distances to the meshes, a little off those that were sampled.
+  config.cem.redistance = false;
+  StartRun(config, folder / "sampled", &observer, MakeSpheres);
+  const torch::Tensor sampled = EliteValues(RunFolder{folder / "sampled"}, 0, config);
+  const double off = (sampled - learnt.slice(0, 0, 3)).abs().max().item<double>();
+  EXPECT_GT(off, 0.0);
+  EXPECT_LT(off, 0.05);
+}
+
 TEST(ShapeModel, LatentModeMovesTheNoiseOfSpheres) {
   const TempFolder folder;
   StoppingObserver observer;
