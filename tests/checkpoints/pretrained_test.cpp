@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <torch/types.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "antigrasp/checkpoints/checkpoint.h"
@@ -42,6 +43,24 @@ TEST(Pretrained, APathGoesBeforeANameAndAFolderIsARun) {
   EXPECT_EQ(FindNetworks(folder.path().string()), folder.path() / "checkpoint.pt");
   WriteFileAtomic(folder / "bottles-prior", "mine");
   EXPECT_EQ(FindNetworks((folder / "bottles-prior").string()), folder / "bottles-prior");
+}
+
+TEST(Pretrained, AreLookedForInTheFolderGivenThenInTheEnvironmentsThenWhereTheyShip) {
+  const shapes::TempFolder folder;
+  folder.Write("given/cylinders-prior.pt", "given");
+  folder.Write("named/cylinders-prior.pt", "named");
+  folder.Write("named/mugs-prior.pt", "named");
+  setenv("ANTIGRASP_PRETRAINED", (folder / "named").c_str(), 1);
+  const std::vector<std::string> names = PretrainedNames();
+  const auto given = FindNetworks("cylinders-prior", folder / "given");
+  const auto named = FindNetworks("cylinders-prior");
+  const auto ships = FindNetworks("prisms-prior", folder / "given");
+  unsetenv("ANTIGRASP_PRETRAINED");
+  EXPECT_EQ(given, folder / "given/cylinders-prior.pt");
+  EXPECT_EQ(named, folder / "named/cylinders-prior.pt");
+  EXPECT_EQ(ships, FindNetworks("prisms-prior"));
+  EXPECT_EQ(names.size(), kNames.size() + 1);
+  EXPECT_NE(FindNetworks("cylinders-prior"), named);
 }
 
 TEST(Pretrained, AnUnknownNameIsRefusedWithThoseThatThereAre) {
