@@ -43,7 +43,8 @@ fs::path FindNetworks(const std::string& path_or_name, const fs::path& first) {
     if (fs::is_regular_file(file)) return file;
   }
   std::string names;
-  for (const std::string& name : PretrainedNames(first)) names += (names.empty() ? "" : ", ") + name;
+  for (const std::string& name : PretrainedNames(first))
+    names += (names.empty() ? "" : ", ") + name;
   throw InputError("no such networks", path_or_name,
                    names.empty() ? "a checkpoint or the folder of a run"
                                  : "a checkpoint, the folder of a run, or one of: " + names);

@@ -6,8 +6,8 @@
 
 namespace antigrasp {
 
-// Networks that come with the project (checkpoints/pretrained/NAME.pt), by name. They are looked for
-// in this order: in `folder`, if one is given; in the folder that the environment variable
+// Networks that come with the project (checkpoints/pretrained/NAME.pt), by name. They are looked
+// for in this order: in `folder`, if one is given; in the folder that the environment variable
 // ANTIGRASP_PRETRAINED names; where this library was configured to be installed
 // (PREFIX/share/antigrasp/pretrained); in the sources it was built from.
 

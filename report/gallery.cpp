@@ -83,7 +83,8 @@ class Gallery {
     }
     if (differ > 0) {
       report_->missing.push_back(
-          stage.label + ": " + std::to_string(differ) + " of " + std::to_string(made.objects.size()) +
+          stage.label + ": " + std::to_string(differ) + " of " +
+          std::to_string(made.objects.size()) +
           " objects score otherwise than in the run's table; it was made on another device or by "
           "another version.");
     }

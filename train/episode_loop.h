@@ -13,8 +13,8 @@
 namespace antigrasp {
 
 // Runs the episodes of the run in `folder` from its last checkpoint (or the beginning) to the end,
-// with a fresh `model`. The folder holds config.toml and prior.h5, whose network values are `prior`.
-// Returns the rows of statistics.csv. InputError: the checkpoint is another model's.
+// with a fresh `model`. The folder holds config.toml and prior.h5, whose network values are
+// `prior`. Returns the rows of statistics.csv. InputError: the checkpoint is another model's.
 std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolder& folder,
                                          ShapeModel* model, const torch::Tensor& prior,
                                          RunObserver* observer);

@@ -69,8 +69,8 @@ torch::Tensor StageValues(const RunFolder& run, const RunConfig& config, int sta
 ScoredStage StageSamples(const RunFolder& run, const RunConfig& config, int stage,
                          const std::vector<std::int64_t>& indices, RunObserver* observer,
                          const ShapeModelMaker& make) {
-  const torch::Tensor values = StageValues(
-      run, config, stage, indices, observer->Phase(StageName(stage, "sampling")), make);
+  const torch::Tensor values =
+      StageValues(run, config, stage, indices, observer->Phase(StageName(stage, "sampling")), make);
   return ScoreSamples(values, indices, config, observer->Phase(StageName(stage, "scoring")));
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using shapes::TempFolder;
 
-constexpr const char* kScores =
+const std::string kScores =
     "object,status,num_grasps,graspability,ci_low,ci_high,mean,fraction_nonzero\n";
 
 std::string StatisticsOf(const std::vector<int>& stages) {
@@ -32,9 +32,8 @@ TEST(RunRecord, HoldsEveryTableOfARunByStage) {
   folder.Write("run/config.toml", "[run]\nseed = 7\n[cem]\nepisodes = 4\n");
   folder.Write("run/provenance.toml", "[provenance]\ndevice = \"cpu\"\n");
   folder.Write("run/statistics.csv", StatisticsOf({0, -1, 1}));
-  folder.Write("run/prior_scores.csv", std::string(kScores) + "0,ok,5,0.5,0,1,0.5,1\n");
-  folder.Write("run/episode_1/scores.csv",
-               std::string(kScores) + "0,disjoint,0,,,,,\n1,ok,5,0.25,0,1,0.5,1\n");
+  folder.Write("run/prior_scores.csv", kScores + "0,ok,5,0.5,0,1,0.5,1\n");
+  folder.Write("run/episode_1/scores.csv", kScores + "0,disjoint,0,,,,,\n1,ok,5,0.25,0,1,0.5,1\n");
   folder.Write("run/episode_1/losses.csv", "step,radius\n10,3\n");
   folder.Write("run/episode_3/checkpoint.pt", "of an episode that was trained and not scored");
   folder.Write("run/episode_x/scores.csv", "of no episode");
@@ -66,7 +65,7 @@ TEST(RunRecord, OfAnEmptyFolderIsEmptyAndOfADamagedTableRefused) {
   const RunRecord none = ReadRun(folder.path());
   EXPECT_FALSE(none.config || none.provenance || none.has_statistics);
   EXPECT_TRUE(none.stages.empty());
-  folder.Write("episode_0/scores.csv", std::string(kScores) + "1,ok,5,0.5,0,1,0.5,1\n");
+  folder.Write("episode_0/scores.csv", kScores + "1,ok,5,0.5,0,1,0.5,1\n");
   try {
     ReadRun(folder.path());
     FAIL() << "a table whose first row is not the first sample";
