@@ -8,7 +8,7 @@
 #include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
-#include "antigrasp/train/episode_loop.h"
+#include "antigrasp/train/make_gan.h"
 
 namespace antigrasp {
 namespace {
@@ -21,8 +21,9 @@ struct GeneratorFlags {
   bool fold_batch_norm = false;
 };
 
-void Write(const fs::path& out, const Checkpoint& checkpoint, const GanTrainer& trainer) {
-  WriteCheckpoint(out, checkpoint, [&](auto* archive) { trainer.SaveNetworks(archive); });
+void Write(const fs::path& out, Checkpoint checkpoint, const GanTrainer& trainer) {
+  checkpoint.networks = trainer.Networks();
+  WriteCheckpoint(out, checkpoint);
   std::printf("%s: networks of episode %d, %.1f MB\n", out.c_str(), trainer.episode(),
               static_cast<double>(fs::file_size(out)) / 1e6);
 }
@@ -43,7 +44,7 @@ void WriteGenerator(const GeneratorFlags& flags) {
   config.device = "cpu";
   if (flags.fold_batch_norm) CheckThatItFolds(config.model, path.string());
   GanTrainer trainer = MakeTrainer(config);
-  ReadNetworks(path, [&](auto* archive) { trainer.LoadNetworks(archive); });
+  trainer.LoadNetworks(checkpoint.networks, path.string());
   checkpoint.shapes = torch::empty({0}, torch::kHalf);  // a prior set may be private, and is large
   checkpoint.losses = torch::empty({0, 0}, torch::kDouble);
   if (!flags.fold_batch_norm) {

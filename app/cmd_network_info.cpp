@@ -6,11 +6,10 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/info_flags.h"
 #include "antigrasp/checkpoints/checkpoint.h"
-#include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/file_kind.h"
-#include "antigrasp/train/run_folder.h"
-#include "antigrasp/train/statistics.h"
+#include "antigrasp/train/run_record.h"
+#include "antigrasp/train/statistics_table.h"
 
 namespace antigrasp {
 namespace {
@@ -32,18 +31,9 @@ void DescribeCheckpoint(const InfoFlags& flags) {
   std::printf("\n%s", checkpoint.config.c_str());
 }
 
-// Of the checkpoint; where only the tables of a run were kept, of statistics.csv.
-std::vector<StageStatistics> RowsOf(const RunFolder& run) {
-  if (fs::exists(run.Latest())) {
-    return StatisticsFromCsv(ReadCheckpoint(run.Latest()).statistics, run.Latest().string());
-  }
-  if (!fs::exists(run.Statistics())) return {};
-  return StatisticsFromCsv(ReadFile(run.Statistics()), run.Statistics().string());
-}
-
 RunFolder RunAt(const std::string& folder, const std::string& where, const std::string& expected) {
   const RunFolder run{folder};
-  if (run.HoldsARun() || fs::exists(run.Statistics())) return run;
+  if (run.HoldsTables()) return run;
   throw InputError("not the folder of a run", where, expected);
 }
 
@@ -51,14 +41,14 @@ void DescribeRun(const InfoFlags& flags, const RunFolder& run) {
   const RunFolder control =
       flags.control.empty() ? RunFolder{run.Control()}
                             : RunAt(flags.control, "--control " + flags.control, "one of a run");
-  const std::vector<StageStatistics> rows = RowsOf(run);
+  const std::vector<StageStatistics> rows = LatestStatistics(run);
   if (flags.csv) {
-    std::fputs(KappaCsv(rows, RowsOf(control)).c_str(), stdout);
+    std::fputs(KappaCsv(rows, LatestStatistics(control)).c_str(), stdout);
     return;
   }
   std::printf("%s: antigrasp run\n", run.root.c_str());
   std::printf("%s", rows.empty() ? "no episode finished yet\n"
-                                 : StatisticsTable(rows, RowsOf(control)).c_str());
+                                 : StatisticsTable(rows, LatestStatistics(control)).c_str());
 }
 
 void Describe(const InfoFlags& flags) {

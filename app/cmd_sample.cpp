@@ -11,8 +11,9 @@
 #include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/models/sdf_values.h"
-#include "antigrasp/train/episode_loop.h"
+#include "antigrasp/train/make_gan.h"
 #include "antigrasp/train/sample_name.h"
+#include "antigrasp/train/stage.h"
 
 namespace antigrasp {
 namespace {
@@ -35,8 +36,8 @@ void Sample(const SampleFlags& flags) {
   RunConfig config = NetworksFromToml(checkpoint.config, path.string());
   config.device = flags.device;
   config.threads = flags.threads;
-  GanTrainer trainer = MakeTrainer(config);
-  ReadNetworks(path, [&](auto* archive) { trainer.LoadNetworks(archive); });
+  const std::unique_ptr<ShapeModel> model = MakeGan(config);
+  model->LoadNetworks(checkpoint.networks, path.string());
 
   ConsoleObserver console;
   const ProgressFn progress = console.Phase("sampling");
@@ -45,12 +46,12 @@ void Sample(const SampleFlags& flags) {
   set.seed = flags.seed;
   set.truncation = LargestDistance(config.model);
   set.provenance = "antigrasp sample " + path.string() + ", episode " +
-                   std::to_string(trainer.episode()) + ", update " + std::to_string(trainer.step());
+                   std::to_string(model->episode()) + ", update " + std::to_string(model->step());
   ShapeSetWriter writer(flags.out, set, static_cast<std::size_t>(flags.count));
   constexpr int kChunk = 64;
   for (int first = 0; first < flags.count; first += kChunk) {
     const torch::Tensor values =
-        trainer.Sample(flags.seed, first, std::min(kChunk, flags.count - first));
+        model->Sample(flags.seed, first, std::min(kChunk, flags.count - first));
     for (std::int64_t i = 0; i < values.size(0); ++i) {
       writer.Add(SampleName(first + i), GridOf(values[i], config.model));
     }

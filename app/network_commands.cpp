@@ -13,6 +13,7 @@ namespace antigrasp {
 namespace {
 
 char** g_arguments = nullptr;
+constexpr int kKeepTheUsersOwn = 0;
 
 // LibTorch, oneDNN and OpenBLAS choose their kernels by the processor, and those of AVX-512 add in
 // another order. All take those of AVX2 where there is no wish to the contrary, so that a seed
@@ -21,11 +22,19 @@ char** g_arguments = nullptr;
 void AskForTheSameKernelsEverywhere() {
 #ifdef __x86_64__
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return;
-  constexpr int kKeepTheUsersOwn = 0;
   setenv("ATEN_CPU_CAPABILITY", "avx2", kKeepTheUsersOwn);
   setenv("DNNL_MAX_CPU_ISA", "AVX2", kKeepTheUsersOwn);
   setenv("OPENBLAS_CORETYPE", "Haswell", kKeepTheUsersOwn);
 #endif
+}
+
+// The networks that were installed with this program, wherever the prefix was moved to since
+// (checkpoints/pretrained.h).
+void TellOfInstalledNetworks(const std::filesystem::path& program) {
+  const auto folder = program.parent_path().parent_path() / ANTIGRASP_PRETRAINED_DIR;
+  if (std::filesystem::is_directory(folder)) {
+    setenv("ANTIGRASP_PRETRAINED", folder.c_str(), kKeepTheUsersOwn);
+  }
 }
 
 }  // namespace
@@ -45,6 +54,7 @@ void BecomeNetworks() {
   const auto program =
       std::filesystem::read_symlink("/proc/self/exe").parent_path() / "antigrasp-networks";
   AskForTheSameKernelsEverywhere();
+  TellOfInstalledNetworks(program);
   execv(program.c_str(), g_arguments);
   throw RuntimeFailure(program.string() + " cannot be started (" + std::strerror(errno) +
                        "): this command needs the build with LibTorch");

@@ -53,8 +53,7 @@ torch::serialize::InputArchive Open(const fs::path& path) {
 
 }  // namespace
 
-void WriteCheckpoint(const fs::path& path, const Checkpoint& checkpoint,
-                     const SaveNetworks& save_networks) {
+void WriteCheckpoint(const fs::path& path, const Checkpoint& checkpoint) {
   torch::serialize::OutputArchive archive;
   archive.write("format", c10::IValue(std::string(kFormat)));
   archive.write("version", c10::IValue(static_cast<std::int64_t>(Checkpoint::kVersion)));
@@ -64,7 +63,9 @@ void WriteCheckpoint(const fs::path& path, const Checkpoint& checkpoint,
   archive.write("shapes", checkpoint.shapes, /*is_buffer=*/true);
   archive.write("losses", checkpoint.losses, /*is_buffer=*/true);
   torch::serialize::OutputArchive networks(archive.compilation_unit());
-  save_networks(&networks);
+  for (const auto& [name, tensor] : checkpoint.networks) {
+    networks.write(name, tensor.detach().cpu(), /*is_buffer=*/true);
+  }
   archive.write("networks", networks);
   // Through memory: written to a path, the archive would carry the temporary file's name.
   std::ostringstream bytes;
@@ -80,22 +81,14 @@ Checkpoint ReadCheckpoint(const fs::path& path) {
   checkpoint.finished = Read<bool>(&archive, "finished", path);
   checkpoint.shapes = Read<torch::Tensor>(&archive, "shapes", path);
   checkpoint.losses = Read<torch::Tensor>(&archive, "losses", path);
-  return checkpoint;
-}
-
-void ReadNetworks(const fs::path& path, const LoadNetworks& load_networks) {
-  torch::serialize::InputArchive archive = Open(path);
   torch::serialize::InputArchive networks;
   if (!archive.try_read("networks", networks)) {
     throw InputError("no entry 'networks' in checkpoint", path.string(), kExpected);
   }
-  try {
-    load_networks(&networks);
-  } catch (const InputError& error) {
-    throw InputError(error.what(), path.string(), kExpected);
-  } catch (const c10::Error& error) {
-    throw InputError(error.what_without_backtrace(), path.string(), kExpected);
+  for (const std::string& name : networks.keys()) {
+    checkpoint.networks.emplace_back(name, Read<torch::Tensor>(&networks, name, path));
   }
+  return checkpoint;
 }
 
 bool IsCheckpoint(const fs::path& path) {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <torch/serialize/archive.h>
 #include <torch/types.h>
 
 #include <filesystem>
-#include <functional>
 #include <string>
+
+#include "antigrasp/models/named_tensors.h"
 
 namespace antigrasp {
 
@@ -18,21 +18,16 @@ struct Checkpoint {
   std::string statistics;  // finished stages, CSV (train/statistics.h)
   torch::Tensor shapes;    // training set of the current episode, float16 [N, 1, r, r, r]
   torch::Tensor losses;    // of the current episode, float64 [rows, columns of losses.csv]
+  NamedTensors networks;   // the shape model's state, on any device
   bool finished = false;   // the last stage has been scored
 };
 
-using SaveNetworks = std::function<void(torch::serialize::OutputArchive*)>;
-using LoadNetworks = std::function<void(torch::serialize::InputArchive*)>;
-
 // Atomic: the previous file stays whole until the new one is on disk. RuntimeFailure on a full
 // disk.
-void WriteCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint,
-                     const SaveNetworks& save_networks);
+void WriteCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
-// Reads everything but the networks, then hands their archive to `load_networks` (may be null).
 // InputError for a missing, foreign or truncated file and for another version.
 Checkpoint ReadCheckpoint(const std::filesystem::path& path);
-void ReadNetworks(const std::filesystem::path& path, const LoadNetworks& load_networks);
 
 // By content, never throws.
 bool IsCheckpoint(const std::filesystem::path& path);

@@ -1,17 +1,28 @@
-# `cmake --install` puts the metric where find_package(antigrasp) finds it: antigrasp::quality and
-# what it stands on, without LibTorch.
+# `cmake --install` puts the libraries where find_package(antigrasp) finds them, in two components: `quality`, the
+# metric and what it stands on, without LibTorch; `train`, the episode loop, its models and the networks that ship
+# (find_package(antigrasp COMPONENTS train); needs `quality` beside it).
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
-
-set(ANTIGRASP_PACKAGE core mesh quality)
-list(TRANSFORM ANTIGRASP_PACKAGE PREPEND antigrasp_ OUTPUT_VARIABLE package_targets)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/antigrasp)
-install(TARGETS ${package_targets} EXPORT antigraspTargets COMPONENT quality)
-install(EXPORT antigraspTargets NAMESPACE antigrasp:: DESTINATION ${package_dir} COMPONENT quality)
-foreach(folder IN LISTS ANTIGRASP_PACKAGE)
-  install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/antigrasp
-          COMPONENT quality FILES_MATCHING PATTERN "*.h")
-endforeach()
+
+# antigrasp_install(quality antigraspTargets ROOMS core mesh... [TARGETS more...])
+function(antigrasp_install component export)
+  cmake_parse_arguments(ARG "" "" "ROOMS;TARGETS" ${ARGN})
+  list(TRANSFORM ARG_ROOMS PREPEND antigrasp_ OUTPUT_VARIABLE targets)
+  install(TARGETS ${targets} ${ARG_TARGETS} EXPORT ${export} COMPONENT ${component})
+  install(EXPORT ${export} NAMESPACE antigrasp:: DESTINATION ${package_dir} COMPONENT ${component})
+  foreach(room IN LISTS ARG_ROOMS)
+    install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/antigrasp COMPONENT ${component}
+            FILES_MATCHING PATTERN "*.h" PATTERN "pretrained" EXCLUDE)
+  endforeach()
+endfunction()
+
+antigrasp_install(quality antigraspTargets ROOMS core mesh quality)
+if(ANTIGRASP_TORCH)
+  antigrasp_install(train antigraspTrainTargets ROOMS sdf datasets render models checkpoints train
+                    TARGETS antigrasp_torch antigrasp_gan)
+endif()
+
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/antigraspConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/antigraspConfig.cmake
                               INSTALL_DESTINATION ${package_dir})

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <utility>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
@@ -25,7 +26,14 @@ std::string Fields(std::size_t count) {
 }  // namespace
 
 CsvReader::CsvReader(const std::filesystem::path& path)
-    : path_(path.string()), text_(ReadFile(path)) {
+    : CsvReader(path.string(), ReadFile(path)) {}
+
+CsvReader CsvReader::OfText(std::string text, std::string name) {
+  return {std::move(name), std::move(text)};
+}
+
+CsvReader::CsvReader(std::string name, std::string text)
+    : path_(std::move(name)), text_(std::move(text)) {
   if (text_.starts_with(kByteOrderMark)) at_ = kByteOrderMark.size();
   const auto binary = std::find_if(text_.begin(), text_.end(), [](char c) {
     return static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\n' && c != '\r';

@@ -17,6 +17,7 @@ namespace antigrasp {
 class CsvReader {
  public:
   explicit CsvReader(const std::filesystem::path& path);
+  static CsvReader OfText(std::string text, std::string name);  // `name` in place of the file's
 
   const std::vector<std::string>& names() const { return names_; }
   std::optional<std::size_t> Column(std::string_view name) const;
@@ -31,6 +32,7 @@ class CsvReader {
   std::string Where() const;  // "file:line" of the row's first line
 
  private:
+  CsvReader(std::string name, std::string text);
   bool ReadRecord();
   std::string ReadField();
 

@@ -18,4 +18,14 @@ class RunObserver {
   virtual bool StopRequested() const = 0;
 };
 
+// For work that nobody watches: shows nothing, never stops.
+class SilentObserver : public RunObserver {
+ public:
+  ProgressFn Phase(const std::string&) override {
+    return [](std::int64_t, std::int64_t) {};
+  }
+  void Detail(const std::string&) override {}
+  bool StopRequested() const override { return false; }
+};
+
 }  // namespace antigrasp

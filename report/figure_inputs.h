@@ -9,6 +9,7 @@
 #include "antigrasp/report/figures/grasp_figure.h"
 #include "antigrasp/report/figures/row_figure.h"
 #include "antigrasp/report/figures/sdf_figure.h"
+#include "antigrasp/train/make_gan.h"
 
 namespace antigrasp {
 
@@ -35,8 +36,9 @@ RowFigure PerturbFigure(const std::vector<std::string>& folders,
 // One row a stage of a run that `antigrasp train` wrote: the first so many usable objects (made
 // again from the stage's checkpoint) and all graspabilities divided by the mean of episode 0, or of
 // the prior set while there is no episode 0. `episodes`: those shown; empty = all that the run is
-// to have. Stages that are not there yet are gaps.
-RowFigure RunFigure(const std::filesystem::path& run, const std::vector<int>& episodes,
-                    int examples, int threads, RunObserver* observer);
+// to have. Stages that are not there yet are gaps. `make`: the shape model that the run was started
+// with.
+RowFigure RunFigure(const std::filesystem::path& run, std::vector<int> episodes, int examples,
+                    int threads, RunObserver* observer, const ShapeModelMaker& make = MakeGan);
 
 }  // namespace antigrasp

@@ -26,7 +26,7 @@ std::vector<double> ValuesWithGaps(const std::vector<ScoreRow>& rows) {
 
 // The samples kept for the next episode, by the names in elites.h5; nullopt without the file.
 std::optional<std::set<std::int64_t>> ElitesOf(const RunFolder& run, int stage) {
-  const fs::path path = run.Episode(stage) / "elites.h5";
+  const fs::path path = run.Elites(stage);
   if (stage < 0 || !fs::exists(path)) return std::nullopt;
   std::set<std::int64_t> elites;
   for (const std::string& name : ReadShapeNames(path)) {
@@ -37,32 +37,44 @@ std::optional<std::set<std::int64_t>> ElitesOf(const RunFolder& run, int stage) 
 
 class Gallery {
  public:
-  Gallery(const RunFolder& run, const RunConfig& config, const RunTables& tables,
+  Gallery(const RunRecord& run, const RunConfig& config, const ShapeModelMaker& make,
           RunObserver* observer, Report* report)
-      : run_(run), config_(config), tables_(tables), observer_(observer), report_(report) {}
+      : run_(run),
+        folder_(run.folder),
+        config_(config),
+        make_(make),
+        observer_(observer),
+        report_(report) {}
 
   void Add(const ReportStage& stage, int per_stage) {
     const int episode = stage.episode;
-    const fs::path source = episode < 0 ? run_.Prior() : run_.EpisodeCheckpoint(episode);
+    const fs::path source = episode < 0 ? folder_.Prior() : folder_.EpisodeCheckpoint(episode);
     if (!fs::exists(source)) {
       report_->missing.push_back(stage.label + " has no " + source.filename().string() +
                                  ": its objects cannot be shown.");
       return;
     }
-    const auto found = tables_.scores.find(episode);
+    const StageRecord* const record = run_.Find(episode);
     const std::vector<ScoreRow> rows =
-        found == tables_.scores.end() ? std::vector<ScoreRow>() : found->second;
+        record != nullptr && record->scores ? *record->scores : std::vector<ScoreRow>();
     std::vector<std::string> prior_names;
     if (episode < 0) prior_names = ReadShapeNames(source);
     const int samples = episode < 0 ? static_cast<int>(prior_names.size()) : config_.cem.samples;
     const GalleryChoice choice = ChooseSamples(rows, samples, episode, per_stage, config_.seed);
+    ScoredStage made;
+    try {
+      made = StageSamples(folder_, config_, episode, choice.indices, observer_, make_);
+    } catch (const OtherShapeModel& other) {
+      report_->missing.push_back(stage.label + ": " + other.what() +
+                                 ": its objects cannot be shown.");
+      return;
+    }
     report_->groups.push_back({stage.id, stage.label, choice.note});
-    const auto made = StageSamples(run_, config_, episode, choice.indices, observer_);
-    const auto elites = ElitesOf(run_, episode);
+    const auto elites = ElitesOf(folder_, episode);
     int differ = 0;
-    for (std::size_t j = 0; j < made.size(); ++j) {
+    for (std::size_t j = 0; j < made.objects.size(); ++j) {
       const auto index = static_cast<std::size_t>(choice.indices[j]);
-      ReportObject object = ObjectOf(made[j]);
+      ReportObject object = ObjectOf(made.objects[j], made.scores[j]);
       object.name = episode < 0 ? prior_names[index] : SampleName(choice.indices[j]);
       if (elites) object.elite = elites->contains(choice.indices[j]);
       AddNumbers(choice, j, rows, &object);
@@ -71,19 +83,19 @@ class Gallery {
     }
     if (differ > 0) {
       report_->missing.push_back(
-          stage.label + ": " + std::to_string(differ) + " of " + std::to_string(made.size()) +
+          stage.label + ": " + std::to_string(differ) + " of " +
+          std::to_string(made.objects.size()) +
           " objects score otherwise than in the run's table; it was made on another device or by "
           "another version.");
     }
   }
 
  private:
-  ReportObject ObjectOf(const ScoredSample& sample) const {
+  ReportObject ObjectOf(const RemeshResult& sample, const Graspability& score) const {
     ReportObject object;
     object.group = report_->groups.size() - 1;
-    object.status =
-        std::string(sample.object.ok() ? Name(sample.score.status) : Name(sample.object.status));
-    object.shape = ShapeOf(sample.object.mesh, sample.score);
+    object.status = std::string(sample.ok() ? Name(score.status) : Name(sample.status));
+    object.shape = ShapeOf(sample.mesh, score);
     return object;
   }
 
@@ -109,9 +121,10 @@ class Gallery {
     return !row.score || row.score->graspability == object.shape.score->graspability;
   }
 
-  const RunFolder& run_;
+  const RunRecord& run_;
+  const RunFolder& folder_;
   const RunConfig& config_;
-  const RunTables& tables_;
+  const ShapeModelMaker& make_;
   RunObserver* observer_;
   Report* report_;
 };
@@ -145,11 +158,11 @@ GalleryChoice ChooseSamples(const std::vector<ScoreRow>& scores, int samples, in
   return choice;
 }
 
-void AddGallery(const RunFolder& run, const RunConfig& config, const RunTables& tables,
-                int per_stage, RunObserver* observer, Report* report) {
+void AddGallery(const RunRecord& run, const RunConfig& config, int per_stage,
+                const ShapeModelMaker& make, RunObserver* observer, Report* report) {
   if (per_stage == 0) return;
-  Gallery gallery(run, config, tables, observer, report);
-  for (const ReportStage& stage : tables.run.stages) {
+  Gallery gallery(run, config, make, observer, report);
+  for (const ReportStage& stage : report->run->stages) {
     if (!stage.control) gallery.Add(stage, per_stage);
   }
 }

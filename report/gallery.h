@@ -1,7 +1,9 @@
 #pragma once
 
 #include "antigrasp/core/observer.h"
-#include "antigrasp/report/run_stages.h"
+#include "antigrasp/report/page/report.h"
+#include "antigrasp/train/make_gan.h"
+#include "antigrasp/train/run_record.h"
 
 namespace antigrasp {
 
@@ -17,10 +19,11 @@ struct GalleryChoice {
 GalleryChoice ChooseSamples(const std::vector<ScoreRow>& scores, int samples, int stage,
                             int per_stage, std::uint64_t seed);
 
-// Adds the gallery to the report: of every stage that can be made again a group and its objects,
-// with the grasps that the run evaluated. What cannot be made, or scores otherwise than the run
-// says, becomes a sentence.
-void AddGallery(const RunFolder& run, const RunConfig& config, const RunTables& tables,
-                int per_stage, RunObserver* observer, Report* report);
+// Adds the gallery to the report, of whose run the stages are: of every one that can be made again
+// a group and its objects, with the grasps that the run evaluated. What cannot be made, or scores
+// otherwise than the run says, becomes a sentence. `config`: the run's, with the threads to use;
+// `make`: the shape model that it was started with.
+void AddGallery(const RunRecord& run, const RunConfig& config, int per_stage,
+                const ShapeModelMaker& make, RunObserver* observer, Report* report);
 
 }  // namespace antigrasp

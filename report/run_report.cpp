@@ -1,15 +1,14 @@
 #include "antigrasp/report/run_report.h"
 
-#include "antigrasp/core/atomic_file.h"
+#include <filesystem>
+
 #include "antigrasp/core/format.h"
 #include "antigrasp/report/gallery.h"
 #include "antigrasp/report/run_stages.h"
-#include "antigrasp/train/provenance.h"
+#include "antigrasp/train/run_record.h"
 
 namespace antigrasp {
 namespace {
-
-namespace fs = std::filesystem;
 
 void AddIfKnown(const std::string& label, const std::string& text,
                 std::vector<LabelledText>* lines) {
@@ -24,8 +23,7 @@ std::string ThreadsText(const Provenance& p) {
              : text + ", " + std::to_string(p.torch_threads) + " of LibTorch";
 }
 
-void AddProvenance(const RunFolder& run, Report* report) {
-  const auto provenance = ReadProvenance(run);
+void AddProvenance(const std::optional<Provenance>& provenance, Report* report) {
   if (!provenance) {
     report->missing.push_back(
         "provenance.toml is not there: version, device and times of the run are not known.");
@@ -47,27 +45,28 @@ void AddProvenance(const RunFolder& run, Report* report) {
 }  // namespace
 
 bool IsRun(const std::string& path) {
-  const RunFolder run{path};
-  return fs::is_directory(path) && (run.HoldsARun() || fs::exists(run.Statistics()));
+  return std::filesystem::is_directory(path) && RunFolder{path}.HoldsTables();
 }
 
-Report RunReport(const RunFolder& run, const ReportSettings& settings, RunObserver* observer) {
+Report RunReport(const RunFolder& folder, const ReportSettings& settings, RunObserver* observer,
+                 const ShapeModelMaker& make) {
+  const RunRecord run = ReadRun(folder.root);
   Report report;
   report.kind = "run";
-  std::optional<RunConfig> config;
-  if (run.HoldsARun()) {
-    report.config = ReadFile(run.Config());
-    config = NetworksFromToml(*report.config, run.Config().string());
-    config->threads = settings.threads;
-    report.metric = config->metric;
-    report.provenance.emplace_back("seed", std::to_string(config->seed));
+  if (run.config) {
+    report.config = run.config_toml;
+    report.metric = run.config->metric;
+    report.provenance.emplace_back("seed", std::to_string(run.config->seed));
   } else {
     report.missing.push_back("config.toml is not there: no object can be shown.");
   }
-  AddProvenance(run, &report);
-  const RunTables tables = ReadRunTables(run, config ? &*config : nullptr, &report.missing);
-  if (config) AddGallery(run, *config, tables, settings.per_stage, observer, &report);
-  report.run = tables.run;
+  AddProvenance(run.provenance, &report);
+  report.run = StagesOf(run, &report.missing);
+  if (run.config) {
+    RunConfig config = *run.config;
+    config.threads = settings.threads;
+    AddGallery(run, config, settings.per_stage, make, observer, &report);
+  }
   return report;
 }
 

@@ -1,17 +1,10 @@
 #include "antigrasp/report/run_stages.h"
 
-#include <charconv>
-#include <cmath>
 #include <limits>
+#include <map>
 #include <set>
-#include <string_view>
 
-#include "antigrasp/core/atomic_file.h"
-#include "antigrasp/core/csv_reader.h"
-#include "antigrasp/core/error.h"
 #include "antigrasp/train/run_output.h"
-#include "antigrasp/train/sample_name.h"
-#include "antigrasp/train/statistics.h"
 
 namespace antigrasp {
 namespace {
@@ -66,102 +59,67 @@ void FillFromScores(const std::vector<ScoreRow>& rows, ReportStage* stage) {
   stage->graspability = MeanWithInterval(Values(rows));
 }
 
-// A stage's table: row i is sample i.
-std::vector<ScoreRow> ReadStageScores(const fs::path& path) {
-  std::vector<ScoreRow> rows = ReadScores(path);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (SampleIndex(rows[i].object) == static_cast<std::int64_t>(i)) continue;
-    throw InputError("object = \"" + rows[i].object + "\"",
-                     path.string() + ", row " + std::to_string(i + 1),
-                     SampleName(static_cast<std::int64_t>(i)));
-  }
-  return rows;
-}
-
-ReportLosses ReadLosses(const fs::path& path, int episode, bool control) {
-  ReportLosses losses{episode, control, {}};
-  CsvReader csv(path);
-  csv.RequiredColumn("step");
-  for (const std::string& name : csv.names()) {  // beside it, whatever the model named
-    losses.columns.emplace_back(name, std::vector<double>());
-  }
-  while (csv.Next()) {
-    for (std::size_t c = 0; c < losses.columns.size(); ++c) {
-      losses.columns[c].second.push_back(csv.NumberOrGap(c));
-    }
+// By columns, "step" first, whatever the model named behind it.
+ReportLosses LossesOf(const LossTable& table, int episode, bool control) {
+  ReportLosses losses{episode, control, {{"step", {}}}};
+  for (const std::string& name : table.scalars) losses.columns.push_back({name, {}});
+  for (const LossRow& row : table.rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) losses.columns[c].second.push_back(row[c]);
   }
   return losses;
 }
 
 // The stages of a run or of its control, one after the other.
-class StageReader {
+class StageTeller {
  public:
-  StageReader(const RunFolder& run, bool control, RunTables* tables,
+  StageTeller(const RunRecord& record, bool control, ReportRun* run,
               std::vector<std::string>* missing)
-      : run_(run), control_(control), tables_(tables), missing_(missing) {
-    if (fs::exists(run.Statistics())) {
-      rows_ = StatisticsFromCsv(ReadFile(run.Statistics()), run.Statistics().string());
-    } else {
-      Miss("statistics.csv is not there: no episode was finished.");
-    }
+      : record_(record), control_(control), run_(run), missing_(missing) {
+    if (!record.has_statistics) Miss("statistics.csv is not there: no episode was finished.");
   }
 
-  // Those that should be there, that statistics.csv tells of and that have a folder.
-  std::set<int> Episodes(const RunConfig* config) const {
+  // Those that should be there and those of which anything is.
+  std::set<int> Episodes(const std::optional<RunConfig>& config) const {
     std::set<int> episodes;
-    for (int e = 0; config != nullptr && e <= config->cem.episodes; ++e) episodes.insert(e);
-    for (const StageStatistics& row : rows_) episodes.insert(row.stage);
-    for (const auto& entry : fs::directory_iterator(run_.root)) {
-      constexpr std::string_view kPrefix = "episode_";
-      const std::string name = entry.path().filename().string();
-      int episode = -1;
-      if (!name.starts_with(kPrefix)) continue;
-      std::from_chars(name.data() + kPrefix.size(), name.data() + name.size(), episode);
-      if (entry.path() == run_.Episode(episode)) episodes.insert(episode);
-    }
+    for (int e = 0; config && e <= config->cem.episodes; ++e) episodes.insert(e);
+    for (const StageRecord& stage : record_.stages) episodes.insert(stage.episode);
     return episodes;
   }
 
-  void Read(int episode) {
-    const fs::path scores = episode < 0 ? run_.PriorScores() : run_.Episode(episode) / "scores.csv";
-    const StageStatistics* row = FindStage(rows_, episode);
-    const bool scored = fs::exists(scores);
-    if (!scored && row == nullptr && (episode < 0 || !fs::exists(run_.Episode(episode)))) {
+  void Tell(int episode) {
+    const StageRecord* const found = record_.Find(episode);
+    if (found == nullptr) {
       Miss(EpisodeText(episode, control_) + " is not there.");
       return;
     }
+    const std::string table = record_.folder.Scores(episode).filename().string();
     ReportStage stage = NewStage(episode, control_);
-    if (scored) {
-      std::vector<ScoreRow> of_stage = ReadStageScores(scores);
-      stage.scores = Values(of_stage);
-      FillFromScores(of_stage, &stage);
-      if (row != nullptr && row->samples != stage.samples) {
+    if (found->scores) {
+      stage.scores = Values(*found->scores);
+      FillFromScores(*found->scores, &stage);
+      if (found->row && found->row->samples != stage.samples) {
         Miss(EpisodeText(episode, control_) + " has " + std::to_string(stage.samples) + " of " +
-             std::to_string(row->samples) + " rows in " + scores.filename().string() + ".");
+             std::to_string(found->row->samples) + " rows in " + table + ".");
       }
-      if (!control_) tables_->scores[episode] = std::move(of_stage);
     } else {
-      Miss(EpisodeText(episode, control_) + " has no " + scores.filename().string() +
-           (row == nullptr ? ": it was not scored." : "."));
+      Miss(EpisodeText(episode, control_) + " has no " + table +
+           (found->row ? "." : ": it was not scored."));
     }
-    if (row != nullptr) {
+    if (found->row) {
       stage.statuses.clear();
-      FillFromStatistics(*row, &stage);
+      FillFromStatistics(*found->row, &stage);
     }
-    tables_->run.stages.push_back(std::move(stage));
-    if (episode >= 0) ReadLossesOf(episode);
+    run_->stages.push_back(std::move(stage));
+    if (episode >= 0) TellLosses(*found);
   }
 
  private:
-  void ReadLossesOf(int episode) {
-    const fs::path path = run_.Episode(episode) / "losses.csv";
-    if (!fs::exists(path)) {
-      Miss(EpisodeText(episode, control_) + " has no losses.csv.");
-      return;
+  void TellLosses(const StageRecord& stage) {
+    if (!stage.losses) {
+      Miss(EpisodeText(stage.episode, control_) + " has no losses.csv.");
+    } else if (!stage.losses->rows.empty()) {  // an episode that trains nothing has none
+      run_->losses.push_back(LossesOf(*stage.losses, stage.episode, control_));
     }
-    ReportLosses losses = ReadLosses(path, episode, control_);
-    // An episode that trains nothing has a table without rows.
-    if (!losses.columns[0].second.empty()) tables_->run.losses.push_back(std::move(losses));
   }
 
   void Miss(const std::string& sentence) {
@@ -169,33 +127,31 @@ class StageReader {
                                                                      : sentence);
   }
 
-  const RunFolder& run_;
+  const RunRecord& record_;
   bool control_;
-  RunTables* tables_;
+  ReportRun* run_;
   std::vector<std::string>* missing_;
-  std::vector<StageStatistics> rows_;
 };
 
 }  // namespace
 
-RunTables ReadRunTables(const RunFolder& run, const RunConfig* config,
-                        std::vector<std::string>* missing) {
-  RunTables tables;
-  StageReader reader(run, /*control=*/false, &tables, missing);
-  reader.Read(-1);
-  for (const int episode : reader.Episodes(config)) {
-    if (episode >= 0) reader.Read(episode);
+ReportRun StagesOf(const RunRecord& run, std::vector<std::string>* missing) {
+  ReportRun stages;
+  StageTeller teller(run, /*control=*/false, &stages, missing);
+  teller.Tell(-1);
+  for (const int episode : teller.Episodes(run.config)) {
+    if (episode >= 0) teller.Tell(episode);
   }
-  const RunFolder control{run.Control()};
-  if (fs::exists(control.root)) {
-    StageReader of_control(control, /*control=*/true, &tables, missing);
-    for (const int episode : of_control.Episodes(config)) {
-      if (episode >= 1) of_control.Read(episode);
+  if (std::filesystem::exists(run.folder.Control())) {
+    const RunRecord control = ReadRun(run.folder.Control());
+    StageTeller of_control(control, /*control=*/true, &stages, missing);
+    for (const int episode : of_control.Episodes(run.config)) {
+      if (episode >= 1) of_control.Tell(episode);
     }
-  } else if (config != nullptr && config->cem.control) {
+  } else if (run.config && run.config->cem.control) {
     missing->push_back("the control run is not there.");
   }
-  return tables;
+  return stages;
 }
 
 }  // namespace antigrasp

@@ -85,6 +85,7 @@ Episode CemLoop::Finish() {
     throw RuntimeFailure("episode " + std::to_string(number) + ": none of " +
                          std::to_string(config_.cem.samples) + " samples is a usable object");
   }
+  episode.elites = selector_.Elites(episode.scored, episode.selection);
   episode.row = Summarize(number, episode.scored, prior_, config_);
   for (const std::int64_t i : episode.selection.elites) {
     const double value = episode.scored.graspabilities[static_cast<std::size_t>(i)];
@@ -103,7 +104,7 @@ void CemLoop::Next(const Episode& episode) {
     model_->BeginFixedEpisode(number + 1,
                               AroundElites(z, config_.cem.step, config_.cem.prior_fraction));
   } else {
-    TrainOn(selector_.TrainingSet(episode.scored, episode.selection));
+    TrainOn(selector_.TrainingSet(episode.elites, episode.selection));
     model_->BeginEpisode(number + 1, config_.cem.iterations, config_.cem.restart);
   }
 }

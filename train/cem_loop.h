@@ -24,7 +24,8 @@ StageScorer GraspabilityScorer(const RunConfig& config, RunObserver* observer);
 // A finished episode: its samples scored, what the next one would train on, its row of statistics.
 struct Episode {
   ScoredStage scored;
-  Selection selection;  // at least one elite
+  Selection selection;   // at least one elite
+  torch::Tensor elites;  // network values [K, 1, n, n, n] that the next one would learn from
   StageStatistics row;
 };
 

@@ -1,6 +1,7 @@
 #include "antigrasp/train/cem_run.h"
 
 #include <spdlog/spdlog.h>
+#include <torch/types.h>
 
 #include <sstream>
 
@@ -11,6 +12,7 @@
 #include "antigrasp/train/episode_loop.h"
 #include "antigrasp/train/provenance.h"
 #include "antigrasp/train/run_lock.h"
+#include "antigrasp/train/stage.h"
 
 namespace antigrasp {
 namespace {
@@ -24,6 +26,15 @@ ShapeSet PriorOf(const RunConfig& config, RunObserver* observer) {
   options.threads = config.threads;
   return MakePriorSet(
       options, observer->Phase("making " + std::to_string(options.count) + " " + options.kind));
+}
+
+// The prior set's network values; the set itself goes to the folder, unless it is unusable.
+torch::Tensor MakePrior(const RunConfig& config, const RunFolder& run, RunObserver* observer) {
+  const ShapeSet set = PriorOf(config, observer);
+  torch::Tensor values = NetworkValuesOf(set, config.model, config.prior_file);
+  MakeFolder(run.root);
+  WriteShapeSet(run.Prior(), set);
+  return values;
 }
 
 std::string ModelToml(ModelOptions model) {
@@ -56,8 +67,7 @@ void RequireSameModel(const RunConfig& config) {
 }
 
 // The control begins where the run it belongs to ended episode 0: same networks, same prior.
-void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder& control,
-                 const ShapeModelMaker& make) {
+void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder& control) {
   RunConfig forked = config;
   forked.cem.select = EliteOrder::kRandom;
   forked.cem.control = false;
@@ -66,24 +76,22 @@ void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder&
   WriteFileAtomic(control.Prior(), ReadFile(run.Prior()));
   Checkpoint checkpoint = ReadCheckpoint(run.EpisodeCheckpoint(0));
   checkpoint.config = ToToml(forked);
-  const std::unique_ptr<ShapeModel> model = make(forked);
-  ReadNetworks(run.EpisodeCheckpoint(0), [&](auto* archive) { model->Load(archive); });
-  WriteCheckpoint(control.Latest(), checkpoint, [&](auto* archive) { model->Save(archive); });
+  WriteCheckpoint(control.Latest(), checkpoint);
   // Last: a folder with a configuration holds a run.
   WriteFileAtomic(control.Config(), checkpoint.config);
 }
 
-RunResult Finish(const RunConfig& config, const RunFolder& folder, ProvenanceRecorder* recorder,
-                 const ShapeModelMaker& make) {
+RunResult Finish(const RunConfig& config, const RunFolder& folder, const torch::Tensor& prior,
+                 ProvenanceRecorder* recorder, const ShapeModelMaker& make) {
   RunResult result;
-  result.stages = RunEpisodes(config, folder, make(config).get(), recorder);
+  result.stages = RunEpisodes(config, folder, make(config).get(), prior, recorder);
   if (config.cem.control) {
     const RunFolder control{folder.Control()};
     const RunLock lock(control);
-    if (!control.HoldsARun()) ForkControl(config, folder, control, make);
+    if (!control.HoldsARun()) ForkControl(config, folder, control);
     spdlog::info("control run: the same retraining on elites drawn at random");
     const RunConfig forked = ConfigOfRun(control.root);
-    result.control = RunEpisodes(forked, control, make(forked).get(), recorder);
+    result.control = RunEpisodes(forked, control, make(forked).get(), prior, recorder);
   }
   recorder->Finish();
   return result;
@@ -107,12 +115,9 @@ RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver*
   const RunLock lock(run);
   RequireNoRun(run);  // that another process has begun and left
   ProvenanceRecorder recorder(run, ProvenanceNow(config), observer);
-  const ShapeSet prior = PriorOf(config, &recorder);
-  NetworkValuesOf(prior, config.model, config.prior_file);  // refuses an unusable set, too
-  MakeFolder(folder);
-  WriteShapeSet(run.Prior(), prior);
+  const torch::Tensor prior = MakePrior(config, run, &recorder);
   WriteFileAtomic(run.Config(), ToToml(config));
-  return Finish(config, run, &recorder, make);
+  return Finish(config, run, prior, &recorder, make);
 }
 
 RunResult ResumeRun(const fs::path& folder, RunObserver* observer, const ShapeModelMaker& make) {
@@ -120,7 +125,9 @@ RunResult ResumeRun(const fs::path& folder, RunObserver* observer, const ShapeMo
   const RunConfig config = ConfigOfRun(folder);
   const RunLock lock(run);
   ProvenanceRecorder recorder(run, ReadProvenance(run), observer);
-  return Finish(config, run, &recorder, make);
+  const torch::Tensor prior =
+      NetworkValuesOf(ReadShapeSet(run.Prior()), config.model, run.Prior().string());
+  return Finish(config, run, prior, &recorder, make);
 }
 
 }  // namespace antigrasp

@@ -1,11 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <vector>
 
 #include "antigrasp/core/observer.h"
-#include "antigrasp/train/episode_loop.h"
+#include "antigrasp/train/make_gan.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_folder.h"
 #include "antigrasp/train/statistics.h"

@@ -1,7 +1,6 @@
 #include "antigrasp/train/episode_loop.h"
 
 #include <spdlog/spdlog.h>
-#include <torch/cuda.h>
 #include <torch/types.h>
 
 #include <chrono>
@@ -13,10 +12,10 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/train/cem_loop.h"
-#include "antigrasp/train/gan_model.h"
+#include "antigrasp/train/loss_table.h"
 #include "antigrasp/train/run_output.h"
 #include "antigrasp/train/scalar_log.h"
-#include "antigrasp/train/torch_threads.h"
+#include "antigrasp/train/statistics_table.h"
 
 namespace antigrasp {
 namespace {
@@ -29,7 +28,7 @@ constexpr int kRecordEvery = 10;  // updates between rows of losses.csv
 class FolderLoop {
  public:
   FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeModel* model,
-             RunObserver* observer);
+             const torch::Tensor& prior, RunObserver* observer);
   std::vector<StageStatistics> Run();
 
  private:
@@ -51,22 +50,19 @@ class FolderLoop {
   ShapeModel* model_;
   RunObserver* observer_;
   CemLoop loop_;
-  const std::vector<std::string> scalars_;  // their names
-  std::vector<LossRow> losses_;
+  LossTable losses_;  // of this episode
   std::optional<ScalarLog> log_;
   bool finished_ = false;
 };
 
 FolderLoop::FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeModel* model,
-                       RunObserver* observer)
+                       const torch::Tensor& prior, RunObserver* observer)
     : config_(config),
       folder_(folder),
       model_(model),
       observer_(observer),
-      loop_(config, model,
-            NetworkValuesOf(ReadShapeSet(folder.Prior()), config.model, folder.Prior().string()),
-            GraspabilityScorer(config, observer), observer),
-      scalars_(model->ScalarNames()) {}
+      loop_(config, model, prior, GraspabilityScorer(config, observer), observer),
+      losses_{model->ScalarNames(), {}} {}
 
 std::vector<StageStatistics> FolderLoop::Run() {
   Restore();
@@ -93,8 +89,8 @@ void FolderLoop::Restore() {
     return;
   }
   if (!config_.start.empty()) {
-    ReadNetworks(FindNetworks(config_.start),
-                 [&](auto* archive) { model_->LoadNetworks(archive); });
+    const fs::path networks = FindNetworks(config_.start);
+    model_->LoadNetworks(ReadCheckpoint(networks).networks, networks.string());
   }
   loop_.Begin();
 }
@@ -102,17 +98,10 @@ void FolderLoop::Restore() {
 void FolderLoop::Resume() {
   const std::string path = folder_.Latest().string();
   const Checkpoint checkpoint = ReadCheckpoint(folder_.Latest());
-  ReadNetworks(folder_.Latest(), [&](auto* archive) { model_->Load(archive); });
+  model_->Load(checkpoint.networks, path);
   loop_.GoOn(checkpoint.shapes, StatisticsFromCsv(checkpoint.statistics, path));
   finished_ = checkpoint.finished;
-  const torch::Tensor losses = checkpoint.losses.contiguous();
-  if (losses.dim() != 2 || losses.size(1) != std::ssize(scalars_) + 1) {
-    throw InputError("losses of another shape", path, "a checkpoint of this version");
-  }
-  for (std::int64_t i = 0; i < losses.size(0); ++i) {
-    const double* row = losses[i].data_ptr<double>();
-    losses_.emplace_back(row, row + losses.size(1));
-  }
+  losses_.rows = LossRows(checkpoint.losses, losses_.scalars.size(), path);
   if (!finished_) {
     spdlog::info("resuming {} at episode {}, update {} of {}", folder_.root.string(), episode(),
                  model_->step(), model_->iterations());
@@ -139,11 +128,11 @@ void FolderLoop::TrainUpdates() {
   while (!loop_.trained()) {
     TrainStep();
     if (model_->step() % kRecordEvery == 0) {
-      losses_.push_back(RowOf(model_->step(), model_->Scalars()));
+      losses_.rows.push_back(RowOf(model_->step(), model_->Scalars()));
       observer_->Detail(model_->ScalarText());
       const std::chrono::duration<double> passed = Clock::now() - recorded;
       recorded = Clock::now();
-      LogScalars(losses_.back(), kRecordEvery / passed.count());
+      LogScalars(losses_.rows.back(), kRecordEvery / passed.count());
     }
     const bool stop = observer_->StopRequested();
     if (stop || model_->step() % config_.cem.checkpoint_every == 0) Save(folder_.Latest());
@@ -178,12 +167,10 @@ void FolderLoop::Record(const Episode& finished) {
     spdlog::warn("only {} of {} samples are usable: fewer elites than cem.keep = {}", elites.size(),
                  config_.cem.samples, config_.cem.keep);
   }
-  WriteFileAtomic(folder_.Episode(episode()) / "scores.csv",
-                  StageScoresCsv(episode(), finished.scored));
-  WriteFileAtomic(folder_.Episode(episode()) / "losses.csv", LossesCsv(scalars_, losses_));
+  WriteFileAtomic(folder_.Scores(episode()), StageScoresCsv(episode(), finished.scored));
+  WriteFileAtomic(folder_.Losses(episode()), LossesCsv(losses_));
   WriteFileAtomic(folder_.Statistics(), StatisticsToCsv(rows));
-  WriteElites(folder_.Episode(episode()) / "elites.h5", finished.scored, elites, episode(),
-              config_);
+  WriteElites(folder_.Elites(episode()), finished.elites, elites, episode(), config_);
   WriteSampleSheet(folder_.Episode(episode()) / "samples.png", finished.scored, config_);
   log_->Add(loop_.UpdatesSoFar(), StageScalars(finished.row, rows));
   LogStage(finished.row, rows);
@@ -191,7 +178,7 @@ void FolderLoop::Record(const Episode& finished) {
 }
 
 void FolderLoop::BeginNext(const Episode& finished) {
-  losses_.clear();
+  losses_.rows.clear();
   loop_.Next(finished);
   Save(folder_.Latest());
 }
@@ -199,8 +186,8 @@ void FolderLoop::BeginNext(const Episode& finished) {
 void FolderLoop::LogScalars(const LossRow& row, double updates_per_second) {
   std::vector<std::pair<std::string, double>> scalars = {
       {"training/updates_per_second", updates_per_second}};
-  for (std::size_t i = 0; i < scalars_.size(); ++i) {
-    scalars.emplace_back("training/" + scalars_[i], row[i + 1]);
+  for (std::size_t i = 0; i < losses_.scalars.size(); ++i) {
+    scalars.emplace_back("training/" + losses_.scalars[i], row[i + 1]);
   }
   log_->Add(loop_.UpdatesSoFar(), scalars);
 }
@@ -211,41 +198,17 @@ void FolderLoop::Save(const fs::path& path, bool finished) const {
   checkpoint.statistics = StatisticsToCsv(loop_.rows());
   checkpoint.shapes = loop_.shapes();
   checkpoint.finished = finished;
-  checkpoint.losses = torch::zeros({std::ssize(losses_), std::ssize(scalars_) + 1}, torch::kDouble);
-  for (std::size_t i = 0; i < losses_.size(); ++i) {
-    double* row = checkpoint.losses[static_cast<std::int64_t>(i)].data_ptr<double>();
-    std::copy(losses_[i].begin(), losses_[i].end(), row);
-  }
-  WriteCheckpoint(path, checkpoint, [&](auto* archive) { model_->Save(archive); });
+  checkpoint.losses = LossTensor(losses_);
+  checkpoint.networks = model_->State();
+  WriteCheckpoint(path, checkpoint);
 }
 
 }  // namespace
 
 std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolder& folder,
-                                         ShapeModel* model, RunObserver* observer) {
-  return FolderLoop(config, folder, model, observer).Run();
-}
-
-std::unique_ptr<ShapeModel> MakeGan(const RunConfig& config) {
-  return std::make_unique<GanModel>(MakeTrainer(config));
-}
-
-GanTrainer MakeTrainer(const RunConfig& config) {
-  const int threads = config.torch_threads > 0 ? config.torch_threads : config.threads;
-  SetTorchThreads(threads > 0 ? threads : HardwareThreads());
-  const std::string expected = "a device this LibTorch offers: cpu" +
-                               std::string(torch::cuda::is_available() ? ", cuda" : " only");
-  try {
-    const torch::Device device(config.device);
-    if (device.is_cuda() && !torch::cuda::is_available()) {
-      throw InputError("run.device = " + config.device, "--device", expected);
-    }
-    // Every step convolves the same shapes: trying cuDNN's algorithms once pays.
-    if (device.is_cuda()) at::globalContext().setBenchmarkCuDNN(true);
-    return GanTrainer(config.model, config.gan, config.seed, device);
-  } catch (const c10::Error&) {
-    throw InputError("run.device = " + config.device, "--device", expected);
-  }
+                                         ShapeModel* model, const torch::Tensor& prior,
+                                         RunObserver* observer) {
+  return FolderLoop(config, folder, model, prior, observer).Run();
 }
 
 }  // namespace antigrasp

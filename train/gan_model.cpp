@@ -41,8 +41,12 @@ torch::Tensor GanModel::Latents(std::uint64_t seed, std::int64_t first, std::int
   return trainer_.Latents(seed, first, count);
 }
 
-void GanModel::LoadNetworks(torch::serialize::InputArchive* archive) {
-  trainer_.LoadNetworks(archive);
+void GanModel::Load(const NamedTensors& state, const std::string& origin) {
+  trainer_.Load(state, origin);
+}
+
+void GanModel::LoadNetworks(const NamedTensors& state, const std::string& origin) {
+  trainer_.LoadNetworks(state, origin);
 }
 
 }  // namespace antigrasp

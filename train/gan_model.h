@@ -35,9 +35,10 @@ class GanModel : public ShapeModel {
   torch::Tensor Latents(std::uint64_t seed, std::int64_t first, std::int64_t count) const override;
   const LatentMixture& latent() const override { return trainer_.latent(); }
 
-  void Save(torch::serialize::OutputArchive* archive) const override { trainer_.Save(archive); }
-  void Load(torch::serialize::InputArchive* archive) override { trainer_.Load(archive); }
-  void LoadNetworks(torch::serialize::InputArchive* archive) override;
+  NamedTensors State() const override { return trainer_.State(); }
+  NamedTensors Networks() const override { return trainer_.Networks(); }
+  void Load(const NamedTensors& state, const std::string& origin) override;
+  void LoadNetworks(const NamedTensors& state, const std::string& origin) override;
 
  private:
   GanTrainer trainer_;

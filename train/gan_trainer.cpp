@@ -17,6 +17,7 @@
 #include "antigrasp/train/augment.h"
 #include "antigrasp/train/averaged_generator.h"
 #include "antigrasp/train/network_tensors.h"
+#include "antigrasp/train/shape_model.h"
 #include "antigrasp/train/symmetries.h"
 
 namespace antigrasp {
@@ -27,6 +28,15 @@ torch::Tensor DiscriminatorLoss(const torch::Tensor& real_score, const torch::Te
   return torch::relu(1.0 - real_score).mean() + torch::relu(1.0 + fake_score).mean();
 }
 torch::Tensor GeneratorLoss(const torch::Tensor& fake_score) { return -fake_score.mean(); }
+
+// Said plainly, before the first tensor that another model has not.
+void RequireGan(const NamedTensors& state, const std::string& origin) {
+  for (const auto& [name, tensor] : state) {
+    if (name.starts_with("average/")) return;
+  }
+  throw OtherShapeModel("networks of another shape model", origin,
+                        "those of a GAN (average/..., discriminator/...)");
+}
 
 }  // namespace
 
@@ -47,7 +57,7 @@ struct GanTrainer::Impl {
   NamedTensors State(const torch::Tensor& progress, const LatentMixture& mixture) const;
   torch::Tensor Progress() const;  // [3] int64: episode, iterations, step
   void SetProgress(const torch::Tensor& progress);
-  LatentMixture MixtureToRead(torch::serialize::InputArchive* archive) const;
+  LatentMixture MixtureToTake(const NamedTensors& state) const;
   NamedTensors Networks(
       const LatentMixture& mixture) const;  // without what only goes on training needs
 
@@ -185,11 +195,10 @@ void GanTrainer::Impl::SetProgress(const torch::Tensor& progress) {
   average.WeightsChanged();
 }
 
-// With as many components as the archive has; what it lacks is refused when it is read.
-LatentMixture GanTrainer::Impl::MixtureToRead(torch::serialize::InputArchive* archive) const {
-  torch::Tensor weights;
-  const bool there = archive->try_read("latent/weights", weights, /*is_buffer=*/true);
-  const std::int64_t n = there && weights.dim() == 1 ? weights.size(0) : 1;
+// With as many components as the state has; what it lacks is refused when it is taken.
+LatentMixture GanTrainer::Impl::MixtureToTake(const NamedTensors& state) const {
+  const torch::Tensor* weights = FindTensor(state, "latent/weights");
+  const std::int64_t n = weights != nullptr && weights->dim() == 1 ? weights->size(0) : 1;
   return {torch::empty({n}), torch::empty({n, model.latent}), torch::empty({n, model.latent})};
 }
 
@@ -274,21 +283,22 @@ torch::Tensor GanTrainer::Sample(std::uint64_t seed, std::int64_t first, std::in
 
 const LatentMixture& GanTrainer::latent() const { return impl_->latent; }
 
-void GanTrainer::SaveNetworks(torch::serialize::OutputArchive* archive) const {
+NamedTensors GanTrainer::Networks() const {
   NamedTensors networks = impl_->Networks(impl_->latent);
   for (auto& [name, tensor] : networks) {
     if (tensor.is_floating_point()) tensor = tensor.to(torch::kHalf);
   }
   networks.emplace_back("progress", impl_->Progress());
-  WriteTensors(networks, archive);
+  return networks;
 }
 
-void GanTrainer::LoadNetworks(torch::serialize::InputArchive* archive) {
-  const LatentMixture mixture = impl_->MixtureToRead(archive);
+void GanTrainer::LoadNetworks(const NamedTensors& state, const std::string& origin) {
+  RequireGan(state, origin);
+  const LatentMixture mixture = impl_->MixtureToTake(state);
   NamedTensors networks = impl_->Networks(mixture);
   const torch::Tensor progress = torch::zeros({3}, torch::kLong);
   networks.emplace_back("progress", progress);
-  ReadTensors(networks, "checkpoint", archive);
+  TakeTensors(state, origin, networks);
   impl_->latent = mixture;
   impl_->SetProgress(progress);
   CopyModule(*impl_->average.network(), *impl_->generator);
@@ -303,14 +313,13 @@ void GanTrainer::TakeFolded(GanTrainer* other) {
   t.SetProgress(from.Progress());
 }
 
-void GanTrainer::Save(torch::serialize::OutputArchive* archive) const {
-  WriteTensors(impl_->State(impl_->Progress(), impl_->latent), archive);
-}
+NamedTensors GanTrainer::State() const { return impl_->State(impl_->Progress(), impl_->latent); }
 
-void GanTrainer::Load(torch::serialize::InputArchive* archive) {
+void GanTrainer::Load(const NamedTensors& state, const std::string& origin) {
+  RequireGan(state, origin);
   const torch::Tensor progress = torch::zeros({3}, torch::kLong);
-  const LatentMixture mixture = impl_->MixtureToRead(archive);
-  ReadTensors(impl_->State(progress, mixture), "checkpoint", archive);
+  const LatentMixture mixture = impl_->MixtureToTake(state);
+  TakeTensors(state, origin, impl_->State(progress, mixture));
   impl_->latent = mixture;
   impl_->SetProgress(progress);
 }

@@ -1,13 +1,14 @@
 #pragma once
 
-#include <torch/serialize/archive.h>
 #include <torch/types.h>
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "antigrasp/models/discriminator.h"
 #include "antigrasp/models/generator.h"
+#include "antigrasp/models/named_tensors.h"
 #include "antigrasp/train/gan_options.h"
 #include "antigrasp/train/latent_mixture.h"
 
@@ -64,16 +65,17 @@ class GanTrainer {
 
   // All tensors by name, flat: generator/..., discriminator/..., average/... (parameters and
   // buffers), adam_generator/first/<i>, second/<i>, steps, adam_discriminator/..., latent/... and
-  // progress (int64: episode, iterations, step). Going on after Load equals going on without, bit
-  // for bit. Load throws InputError and changes nothing when a tensor is missing or does not fit.
-  void Save(torch::serialize::OutputArchive* archive) const;
-  void Load(torch::serialize::InputArchive* archive);
+  // progress (int64: episode, iterations, step); they share storage with the trainer. Going on
+  // after Load equals going on without, bit for bit. Load throws InputError naming `origin` and
+  // changes nothing when a tensor is missing or does not fit.
+  NamedTensors State() const;
+  void Load(const NamedTensors& state, const std::string& origin);
 
   // What is enough to sample and to begin an episode: average/..., discriminator/... and
-  // latent/..., float16. Load takes these from either kind of archive; the generator goes on from
-  // the average.
-  void SaveNetworks(torch::serialize::OutputArchive* archive) const;
-  void LoadNetworks(torch::serialize::InputArchive* archive);
+  // latent/..., float16. LoadNetworks takes these from either; the generator goes on from the
+  // average.
+  NamedTensors Networks() const;
+  void LoadNetworks(const NamedTensors& state, const std::string& origin);
 
   // Takes the networks of `other`, which has batch norm, where this one has none but is otherwise
   // like it (GeneratorImpl::TakeFolded): the same samples up to rounding.

@@ -4,9 +4,9 @@
 
 #include <string>
 
+#include "antigrasp/models/named_tensors.h"
 #include "antigrasp/train/adam.h"
 #include "antigrasp/train/latent_mixture.h"
-#include "antigrasp/train/tensor_archive.h"
 
 namespace antigrasp {
 

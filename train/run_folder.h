@@ -23,8 +23,15 @@ struct RunFolder {
     return root / ("episode_" + std::to_string(episode));
   }
   std::filesystem::path EpisodeCheckpoint(int e) const { return Episode(e) / "checkpoint.pt"; }
+  std::filesystem::path Losses(int episode) const { return Episode(episode) / "losses.csv"; }
+  std::filesystem::path Elites(int episode) const { return Episode(episode) / "elites.h5"; }
+  std::filesystem::path Scores(int stage) const {  // -1: of the prior set
+    return stage < 0 ? PriorScores() : Episode(stage) / "scores.csv";
+  }
 
   bool HoldsARun() const { return std::filesystem::exists(Config()); }
+  // A run, or what is left of one when its tables alone were kept.
+  bool HoldsTables() const { return HoldsARun() || std::filesystem::exists(Statistics()); }
 
   std::vector<std::filesystem::path> Episodes() const;  // the folders that are there
 

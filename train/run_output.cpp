@@ -37,23 +37,6 @@ std::string StageName(int episode, const std::string& doing) {
   return StageName(episode) + ": " + doing;
 }
 
-LossRow RowOf(std::int64_t step, const std::vector<double>& scalars) {
-  LossRow row = {double(step)};
-  row.insert(row.end(), scalars.begin(), scalars.end());
-  return row;
-}
-
-std::string LossesCsv(const std::vector<std::string>& scalars, const std::vector<LossRow>& rows) {
-  std::vector<std::string> columns = {"step"};
-  columns.insert(columns.end(), scalars.begin(), scalars.end());
-  CsvWriter csv(columns);
-  for (const LossRow& row : rows) {
-    for (const double value : row) csv.NumberOrGap(value);
-    csv.EndRow();
-  }
-  return csv.text();
-}
-
 std::vector<std::pair<std::string, double>> StageScalars(const StageStatistics& row,
                                                          const std::vector<StageStatistics>& rows) {
   const StageStatistics* prior = FindStage(rows, -1);
@@ -92,7 +75,7 @@ void WarnIfCollapsed(const StageStatistics& row, const std::vector<StageStatisti
   }
 }
 
-void WriteElites(const std::filesystem::path& path, const ScoredStage& scored,
+void WriteElites(const std::filesystem::path& path, const torch::Tensor& values,
                  const std::vector<std::int64_t>& elites, int episode, const RunConfig& config) {
   ShapeSet set;
   set.kind = "elites";
@@ -101,9 +84,9 @@ void WriteElites(const std::filesystem::path& path, const ScoredStage& scored,
   set.provenance =
       "antigrasp train, episode " + std::to_string(episode) + ", " +
       (config.cem.select == EliteOrder::kRandom ? "random samples" : "least graspable samples");
-  for (const std::int64_t i : elites) {
-    set.names.push_back(SampleName(i));
-    set.grids.push_back(GridOf(scored.values[i], config.model));
+  for (std::size_t k = 0; k < elites.size(); ++k) {
+    set.names.push_back(SampleName(elites[k]));
+    set.grids.push_back(GridOf(values[static_cast<std::int64_t>(k)], config.model));
   }
   WriteShapeSet(path, set);
 }
@@ -134,18 +117,26 @@ void ExportLeastGraspable(const ScoredStage& scored, const RunConfig& config,
                    [&](std::int64_t a, std::int64_t b) { return value(a) < value(b); });
   MakeFolder(folder.Stl());
   const std::uint64_t fresh = RngStream(config.seed, "rescore").NextU64();
+  const auto mesh = [&](std::int64_t rank) {
+    const auto object = static_cast<std::size_t>(worst[static_cast<std::size_t>(rank)]);
+    return &scored.objects[object].mesh;
+  };
+  const auto stream = [&](std::int64_t rank) {
+    return static_cast<std::uint64_t>(worst[static_cast<std::size_t>(rank)]);
+  };
+  const std::vector<Graspability> again =
+      ScoreAll(std::ssize(worst), mesh, stream, config.metric, fresh, config.threads);
   CsvWriter csv({"file", "object", "graspability", "graspability_fresh_draws", "ci_low", "ci_high",
                  "size_mm"});
   for (std::size_t rank = 0; rank < worst.size(); ++rank) {
     const std::int64_t i = worst[rank];
-    const TriangleMesh& mesh = scored.objects[static_cast<std::size_t>(i)].mesh;
     const std::string name = fmt::format("adversarial_{:02d}.stl", rank + 1);
-    WriteMesh(folder.Stl() / name, FitToPlate(mesh, config.stl_size_mm));
-    const Graspability again =
-        EvaluateGraspability(mesh, config.metric, fresh, static_cast<std::uint64_t>(i));
+    WriteMesh(folder.Stl() / name,
+              FitToPlate(*mesh(static_cast<std::int64_t>(rank)), config.stl_size_mm));
     csv.Text(name)
         .Text(SampleName(i))
-        .Numbers({value(i), again.value, again.ci_low, again.ci_high, config.stl_size_mm});
+        .Numbers({value(i), again[rank].value, again[rank].ci_low, again[rank].ci_high,
+                  config.stl_size_mm});
     csv.EndRow();
   }
   WriteFileAtomic(folder.Stl() / "scores.csv", csv.text());

@@ -17,12 +17,6 @@ namespace antigrasp {
 std::string StageName(int episode);                            // "episode 1"; -1: "prior set"
 std::string StageName(int episode, const std::string& doing);  // "episode 1: scoring"
 
-// A row of episode_K/losses.csv: the step within the episode, then the model's scalars.
-using LossRow = std::vector<double>;
-LossRow RowOf(std::int64_t step, const std::vector<double>& scalars);
-// `scalars`: their names. A NaN is an empty field.
-std::string LossesCsv(const std::vector<std::string>& scalars, const std::vector<LossRow>& rows);
-
 // What TensorBoard shows of a stage.
 std::vector<std::pair<std::string, double>> StageScalars(const StageStatistics& row,
                                                          const std::vector<StageStatistics>& rows);
@@ -34,7 +28,9 @@ void LogStage(const StageStatistics& row, const std::vector<StageStatistics>& ro
 // moves: warns below half of episode 0's coverage and above 20 % near-duplicates.
 void WarnIfCollapsed(const StageStatistics& row, const std::vector<StageStatistics>& rows);
 
-void WriteElites(const std::filesystem::path& path, const ScoredStage& scored,
+// `values`: network values of the elites as the next episode learns from them; `elites`: which
+// samples they are.
+void WriteElites(const std::filesystem::path& path, const torch::Tensor& values,
                  const std::vector<std::int64_t>& elites, int episode, const RunConfig& config);
 
 // The first 32 samples that have a surface, usable or not, as a picture.

@@ -105,13 +105,16 @@ Selection EliteSelector::Select(const ScoredStage& scored, int episode) const {
   return selection;
 }
 
-torch::Tensor EliteSelector::TrainingSet(const ScoredStage& scored,
+torch::Tensor EliteSelector::Elites(const ScoredStage& scored, const Selection& selection) const {
+  return config_.cem.redistance ? ExactValues(scored, selection.elites, config_)
+                                : Rows(scored.values, selection.elites);
+}
+
+torch::Tensor EliteSelector::TrainingSet(const torch::Tensor& elites,
                                          const Selection& selection) const {
-  const torch::Tensor kept = config_.cem.redistance
-                                 ? ExactValues(scored, selection.elites, config_)
-                                 : Rows(scored.values, selection.elites).to(torch::kHalf);
-  if (selection.replayed.empty()) return kept;
-  return torch::cat({kept, Rows(prior_, selection.replayed)});
+  const torch::Tensor learnt = elites.to(torch::kHalf);
+  if (selection.replayed.empty()) return learnt;
+  return torch::cat({learnt, Rows(prior_, selection.replayed)});
 }
 
 }  // namespace antigrasp

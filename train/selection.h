@@ -31,8 +31,12 @@ class EliteSelector {
   EliteSelector(const RunConfig& config, torch::Tensor prior);  // prior: network values [N, ...]
   Selection Select(const ScoredStage& scored, int episode) const;
 
-  // Network values float16 of what was selected.
-  torch::Tensor TrainingSet(const ScoredStage& scored, const Selection& selection) const;
+  // Network values [K, 1, n, n, n] of the elites as they are learnt from: those that were sampled
+  // or, with cem.redistance, those of the exact distances to their meshes, float16.
+  torch::Tensor Elites(const ScoredStage& scored, const Selection& selection) const;
+
+  // What the next episode trains on, float16: the elites, then the replayed shapes.
+  torch::Tensor TrainingSet(const torch::Tensor& elites, const Selection& selection) const;
 
  private:
   std::vector<std::int64_t> CellsOf(const torch::Tensor& values) const;

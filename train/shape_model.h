@@ -1,15 +1,22 @@
 #pragma once
 
-#include <torch/serialize/archive.h>
 #include <torch/types.h>
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "antigrasp/core/error.h"
+#include "antigrasp/models/named_tensors.h"
 #include "antigrasp/train/latent_mixture.h"
 
 namespace antigrasp {
+
+// A state that another kind of model saved.
+class OtherShapeModel : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 // What the episode loop trains and draws shapes from: p_theta of section V-B. The GAN (gan_model.h)
 // is one. Random numbers depend on a seed, the episode, the step and the sample only, so that a
@@ -48,11 +55,14 @@ class ShapeModel {
                                 std::int64_t count) const = 0;
   virtual const LatentMixture& latent() const = 0;  // the distribution of z
 
-  // The whole state, progress included. Load: InputError, and nothing changed, when it does not
-  // fit. LoadNetworks takes of any saved state what is enough to sample and to begin an episode.
-  virtual void Save(torch::serialize::OutputArchive* archive) const = 0;
-  virtual void Load(torch::serialize::InputArchive* archive) = 0;
-  virtual void LoadNetworks(torch::serialize::InputArchive* archive) = 0;
+  // The whole state by name, progress included; and what of it is enough to sample and to begin an
+  // episode, as small as it may be (float16). They may share storage with the model.
+  virtual NamedTensors State() const = 0;
+  virtual NamedTensors Networks() const = 0;
+  // Take a State, or what is enough of either; more is overlooked. InputError naming `origin`, and
+  // nothing changed, when it does not fit; OtherShapeModel when it is of another kind altogether.
+  virtual void Load(const NamedTensors& state, const std::string& origin) = 0;
+  virtual void LoadNetworks(const NamedTensors& state, const std::string& origin) = 0;
 };
 
 }  // namespace antigrasp

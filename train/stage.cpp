@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/rng.h"
@@ -35,6 +36,22 @@ void FillSimilarity(const ScoredStage& scored, const torch::Tensor& prior, int c
   row->nna = similarity.nna;
   row->duplicates = similarity.duplicates;
   row->diversity = similarity.diversity;
+}
+
+// As many objects as values, none of them made.
+ScoredStage Unscored(const torch::Tensor& values) {
+  const auto count = static_cast<std::size_t>(values.size(0));
+  ScoredStage scored;
+  scored.values = values;
+  scored.objects.resize(count);
+  scored.scores.resize(count);
+  scored.graspabilities.assign(count, kNaN);
+  return scored;
+}
+
+RemeshResult ObjectOf(const torch::Tensor& value, const RunConfig& config) {
+  const RemeshOptions remesh{.check_self_intersection = config.cem.check_self_intersection};
+  return Remesh(GridOf(value, config.model), remesh);
 }
 
 }  // namespace
@@ -75,36 +92,49 @@ std::uint64_t StageSeed(const RunConfig& config, int episode) {
   return RngStream(config.seed, "stage", static_cast<std::uint64_t>(episode)).NextU64();
 }
 
-ScoredSample ScoreSample(const torch::Tensor& value, std::int64_t index, const RunConfig& config) {
-  const RemeshOptions remesh{.check_self_intersection = config.cem.check_self_intersection};
-  ScoredSample sample{Remesh(GridOf(value, config.model), remesh), {}};
-  if (sample.object.ok()) {
-    sample.score = EvaluateGraspability(sample.object.mesh, config.metric, config.seed,
-                                        static_cast<std::uint64_t>(index));
-  }
-  return sample;
-}
-
 ScoredStage ScoreStage(const torch::Tensor& values, const RunConfig& config,
                        const std::string& name, RunObserver* observer) {
-  ScoredStage scored;
-  scored.values = values;
-  const auto count = static_cast<std::size_t>(values.size(0));
-  scored.objects.resize(count);
-  scored.scores.resize(count);
-  scored.graspabilities.assign(count, kNaN);
+  std::vector<std::int64_t> all(static_cast<std::size_t>(values.size(0)));
+  std::iota(all.begin(), all.end(), 0);
+  return ScoreSamples(values, all, config, observer->Phase(name));
+}
+
+ScoredStage ScoreSamples(const torch::Tensor& values, const std::vector<std::int64_t>& indices,
+                         const RunConfig& config, const ProgressFn& progress) {
+  ScoredStage scored = Unscored(values);
+  scored.scores = ScoreAll(
+      values.size(0),
+      [&](std::int64_t i) {
+        RemeshResult& object = scored.objects[static_cast<std::size_t>(i)];
+        object = ObjectOf(values[i], config);
+        return object.ok() ? &object.mesh : nullptr;
+      },
+      [&](std::int64_t i) {
+        return static_cast<std::uint64_t>(indices[static_cast<std::size_t>(i)]);
+      },
+      config.metric, config.seed, config.threads, progress);
+  for (std::size_t i = 0; i < scored.scores.size(); ++i) {
+    if (scored.scores[i].status == GraspabilityStatus::kNotEvaluable) continue;
+    scored.graspabilities[i] = scored.scores[i].value;
+  }
+  return scored;
+}
+
+ScoredStage ScoreStageBy(const MeshScore& score, const torch::Tensor& values,
+                         const RunConfig& config, const ProgressFn& progress) {
+  ScoredStage scored = Unscored(values);
   ParallelFor(
       values.size(0), config.threads,
       [&](std::int64_t i) {
         const auto slot = static_cast<std::size_t>(i);
-        ScoredSample sample = ScoreSample(values[i], i, config);
-        scored.objects[slot] = std::move(sample.object);
-        scored.scores[slot] = std::move(sample.score);
-        if (scored.scores[slot].status != GraspabilityStatus::kNotEvaluable) {
-          scored.graspabilities[slot] = scored.scores[slot].value;
-        }
+        scored.objects[slot] = ObjectOf(values[i], config);
+        if (!scored.objects[slot].ok()) return;
+        scored.graspabilities[slot] = score(scored.objects[slot].mesh);
+        if (std::isnan(scored.graspabilities[slot])) return;
+        scored.scores[slot].status = GraspabilityStatus::kOk;
+        scored.scores[slot].value = scored.graspabilities[slot];
       },
-      observer->Phase(name));
+      progress);
   return scored;
 }
 

@@ -3,7 +3,7 @@
 #include <torch/types.h>
 
 #include <cstdint>
-#include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "antigrasp/core/observer.h"
@@ -22,14 +22,6 @@ struct ScoredStage {
   std::vector<double> graspabilities;  // NaN for rejected grids
 };
 
-// One sample remeshed and, if it is a usable object, scored. Its random draws depend on
-// (config.seed, index) only. `value`: network values [1, n, n, n].
-struct ScoredSample {
-  RemeshResult object;
-  Graspability score;  // kNotEvaluable for a rejected grid
-};
-ScoredSample ScoreSample(const torch::Tensor& value, std::int64_t index, const RunConfig& config);
-
 // The seed of the latent vectors of an episode's samples.
 std::uint64_t StageSeed(const RunConfig& config, int episode);
 
@@ -37,6 +29,16 @@ std::uint64_t StageSeed(const RunConfig& config, int episode);
 // common random numbers.
 ScoredStage ScoreStage(const torch::Tensor& values, const RunConfig& config,
                        const std::string& name, RunObserver* observer);
+
+// The same of some samples of a stage: value j is sample indices[j].
+ScoredStage ScoreSamples(const torch::Tensor& values, const std::vector<std::int64_t>& indices,
+                         const RunConfig& config, const ProgressFn& progress);
+
+// The same with another score in the place of the graspability. It is asked for every usable
+// object, on any thread; lower is kept. NaN: the object counts as rejected.
+using MeshScore = std::function<double(const TriangleMesh&)>;
+ScoredStage ScoreStageBy(const MeshScore& score, const torch::Tensor& values,
+                         const RunConfig& config, const ProgressFn& progress);
 
 // Counts, mean graspability and similarity to the prior set (network values).
 StageStatistics Summarize(int stage, const ScoredStage& scored, const torch::Tensor& prior,

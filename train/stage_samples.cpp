@@ -7,7 +7,6 @@
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/train/averaged_generator.h"
-#include "antigrasp/train/episode_loop.h"
 #include "antigrasp/train/run_output.h"
 
 namespace antigrasp {
@@ -28,11 +27,13 @@ torch::Tensor PriorValues(const RunFolder& run, const RunConfig& config,
 }
 
 torch::Tensor SampledValues(const RunFolder& run, RunConfig config, int stage,
-                            const std::vector<std::int64_t>& indices, const ProgressFn& progress) {
+                            const std::vector<std::int64_t>& indices, const ProgressFn& progress,
+                            const ShapeModelMaker& make) {
   config.device = "cpu";
-  GanTrainer trainer = MakeTrainer(config);
-  ReadNetworks(run.EpisodeCheckpoint(stage), [&](auto* archive) { trainer.LoadNetworks(archive); });
-  // The generator draws whole blocks, so every block is asked for once.
+  const std::unique_ptr<ShapeModel> model = make(config);
+  const auto path = run.EpisodeCheckpoint(stage);
+  model->LoadNetworks(ReadCheckpoint(path).networks, path.string());
+  // The GAN's generator draws whole blocks, so every block is asked for once.
   std::map<std::int64_t, std::vector<std::size_t>> places;  // of the wanted samples of a block
   for (std::size_t j = 0; j < indices.size(); ++j) {
     if (indices[j] < 0) {
@@ -44,7 +45,7 @@ torch::Tensor SampledValues(const RunFolder& run, RunConfig config, int stage,
   std::int64_t drawn = 0;
   for (const auto& [block, wanted] : places) {
     const torch::Tensor samples =
-        trainer.Sample(StageSeed(config, stage), block * kSampleBlock, kSampleBlock);
+        model->Sample(StageSeed(config, stage), block * kSampleBlock, kSampleBlock);
     for (const std::size_t j : wanted) values[j] = samples[indices[j] % kSampleBlock];
     drawn += std::ssize(wanted);
     if (progress) progress(drawn, std::ssize(indices));
@@ -55,29 +56,22 @@ torch::Tensor SampledValues(const RunFolder& run, RunConfig config, int stage,
 }  // namespace
 
 torch::Tensor StageValues(const RunFolder& run, const RunConfig& config, int stage,
-                          const std::vector<std::int64_t>& indices, const ProgressFn& progress) {
+                          const std::vector<std::int64_t>& indices, const ProgressFn& progress,
+                          const ShapeModelMaker& make) {
   if (indices.empty()) {
     const std::int64_t n = config.model.resolution;
     return torch::empty({0, 1, n, n, n});
   }
   return stage < 0 ? PriorValues(run, config, indices)
-                   : SampledValues(run, config, stage, indices, progress);
+                   : SampledValues(run, config, stage, indices, progress, make);
 }
 
-std::vector<ScoredSample> StageSamples(const RunFolder& run, const RunConfig& config, int stage,
-                                       const std::vector<std::int64_t>& indices,
-                                       RunObserver* observer) {
+ScoredStage StageSamples(const RunFolder& run, const RunConfig& config, int stage,
+                         const std::vector<std::int64_t>& indices, RunObserver* observer,
+                         const ShapeModelMaker& make) {
   const torch::Tensor values =
-      StageValues(run, config, stage, indices, observer->Phase(StageName(stage, "sampling")));
-  std::vector<ScoredSample> samples(indices.size());
-  ParallelFor(
-      std::ssize(indices), config.threads,
-      [&](std::int64_t j) {
-        const auto slot = static_cast<std::size_t>(j);
-        samples[slot] = ScoreSample(values[j], indices[slot], config);
-      },
-      observer->Phase(StageName(stage, "scoring")));
-  return samples;
+      StageValues(run, config, stage, indices, observer->Phase(StageName(stage, "sampling")), make);
+  return ScoreSamples(values, indices, config, observer->Phase(StageName(stage, "scoring")));
 }
 
 }  // namespace antigrasp

@@ -1,63 +1,15 @@
 #include "antigrasp/train/statistics.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 #include <sstream>
 
 #include "antigrasp/core/csv_writer.h"
-#include "antigrasp/core/error.h"
-#include "antigrasp/core/format.h"
 
 namespace antigrasp {
 namespace {
-
-constexpr int kNumColumns = 12 + kNumRemeshStatuses;
-
-std::string Header() {
-  std::string header = "stage,samples";
-  for (int i = 0; i < kNumRemeshStatuses; ++i) {
-    header += "," + std::string(Name(static_cast<RemeshStatus>(i)));
-  }
-  return header +
-         ",scored,without_grasps,graspability,half_width_95,count,elite_threshold,coverage,nna,"
-         "duplicates,diversity";
-}
-
-std::vector<double> Values(const StageStatistics& row) {
-  std::vector<double> values = {double(row.stage), double(row.samples)};
-  for (const int count : row.by_status) values.push_back(count);
-  for (const double value :
-       {double(row.scored), double(row.without_grasps), row.graspability.mean,
-        row.graspability.half_width, double(row.graspability.count), row.elite_threshold,
-        row.coverage, row.nna, row.duplicates, row.diversity}) {
-    values.push_back(value);
-  }
-  return values;
-}
-
-StageStatistics FromValues(const std::vector<double>& values) {
-  std::size_t next = 0;
-  const auto take = [&] { return values[next++]; };
-  const auto take_int = [&] { return static_cast<int>(values[next++]); };
-  StageStatistics row;
-  row.stage = take_int();
-  row.samples = take_int();
-  for (int& count : row.by_status) count = take_int();
-  row.scored = take_int();
-  row.without_grasps = take_int();
-  row.graspability.mean = take();
-  row.graspability.half_width = take();
-  row.graspability.count = take_int();
-  row.elite_threshold = take();
-  row.coverage = take();
-  row.nna = take();
-  row.duplicates = take();
-  row.diversity = take();
-  return row;
-}
 
 std::string Printf(const char* format, double a, double b = 0) {
   char buffer[64];
@@ -144,41 +96,6 @@ MeanInterval Ratio(const MeanInterval& value, const MeanInterval& reference) {
   const double theirs = ratio.mean * reference.half_width / reference.mean;
   ratio.half_width = std::hypot(own, theirs);
   return ratio;
-}
-
-std::string StatisticsToCsv(const std::vector<StageStatistics>& rows) {
-  std::string csv = Header() + "\n";
-  for (const StageStatistics& row : rows) {
-    std::string line;
-    for (const double value : Values(row)) line += (line.empty() ? "" : ",") + FormatDouble(value);
-    csv += line + "\n";
-  }
-  return csv;
-}
-
-std::vector<StageStatistics> StatisticsFromCsv(const std::string& csv, const std::string& origin) {
-  std::istringstream lines(csv);
-  std::string line;
-  std::getline(lines, line);
-  if (line != Header()) throw InputError("not a statistics table", origin, Header());
-  std::vector<StageStatistics> rows;
-  for (int number = 2; std::getline(lines, line); ++number) {
-    std::vector<double> values;
-    std::istringstream fields(line);
-    for (std::string field; std::getline(fields, field, ',');) {
-      double value = std::nan("");
-      const auto parsed = std::from_chars(field.data(), field.data() + field.size(), value);
-      if (parsed.ec != std::errc()) break;
-      values.push_back(value);
-    }
-    if (values.size() != kNumColumns) {
-      throw InputError("a row of " + std::to_string(values.size()) + " numbers",
-                       origin + ":" + std::to_string(number),
-                       std::to_string(kNumColumns) + " numbers");
-    }
-    rows.push_back(FromValues(values));
-  }
-  return rows;
 }
 
 std::string KappaCsv(const std::vector<StageStatistics>& rows,

@@ -9,8 +9,8 @@
 
 namespace antigrasp {
 
-// One row of a run: what was sampled at a stage and how hard it is to grasp. Stage -1 is the prior
-// set, 0 the GAN trained on it, k the GAN retrained k times.
+// One row of a run (statistics_table.h): what was sampled at a stage and how hard it is to grasp.
+// Stage -1 is the prior set, 0 the GAN trained on it, k the GAN retrained k times.
 struct StageStatistics {
   int stage = -1;
   int samples = 0;
@@ -33,10 +33,6 @@ const StageStatistics* FindStage(const std::vector<StageStatistics>& rows, int s
 // A mean divided by a reference mean, with the 95 % interval of the ratio (delta method for two
 // independent means). This is kappa with c = 1 / reference (paper VI).
 MeanInterval Ratio(const MeanInterval& value, const MeanInterval& reference);
-
-// The rows as CSV with a header line, and back (for resume). FromCsv: InputError naming `origin`.
-std::string StatisticsToCsv(const std::vector<StageStatistics>& rows);
-std::vector<StageStatistics> StatisticsFromCsv(const std::string& csv, const std::string& origin);
 
 // Kappa as a table for programs (docs/formats.md): the rows of StatisticsTable, with a half width
 // for every mean; empty where there is no reference.

@@ -46,7 +46,7 @@ void WriteRun(const TempFolder& folder) {
   const std::string head =
       "object,status,num_grasps,ci_low,graspability,ci_high,mean,fraction_nonzero\n";
   folder.Write("run/config.toml", "[cem]\nepisodes = 2\ncontrol = false\n");
-  folder.Write("run/prior_scores.csv", head + "a,ok,100,7,0.55,9,8,1\nb,ok,100,7,0.65,9,8,1\n");
+  folder.Write("run/prior_scores.csv", head + "0,ok,100,7,0.55,9,8,1\n1,ok,100,7,0.65,9,8,1\n");
   folder.Write(
       "run/episode_0/scores.csv",
       head +

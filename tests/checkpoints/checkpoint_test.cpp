@@ -22,12 +22,10 @@ Checkpoint Sample() {
   checkpoint.statistics = "stage\n-1\n";
   checkpoint.shapes = torch::arange(64, torch::kFloat).reshape({2, 1, 4, 2, 4}).to(torch::kHalf);
   checkpoint.losses = torch::rand({3, 3}, torch::kDouble);
+  checkpoint.networks = {{"last/weight", torch::ones({2, 3})},
+                         {"bias", torch::arange(4, torch::kLong)}};
   checkpoint.finished = true;
   return checkpoint;
-}
-
-void SaveTensor(torch::serialize::OutputArchive* archive) {
-  archive->write("weight", torch::ones({2, 3}), true);
 }
 
 std::string MessageOf(const std::filesystem::path& path) {
@@ -42,7 +40,7 @@ std::string MessageOf(const std::filesystem::path& path) {
 TEST(Checkpoint, ReadsBackWhatWasWritten) {
   const TempFolder folder;
   const Checkpoint written = Sample();
-  WriteCheckpoint(folder / "a.pt", written, SaveTensor);
+  WriteCheckpoint(folder / "a.pt", written);
   const Checkpoint read = ReadCheckpoint(folder / "a.pt");
   EXPECT_EQ(read.config, written.config);
   EXPECT_EQ(read.statistics, written.statistics);
@@ -50,9 +48,21 @@ TEST(Checkpoint, ReadsBackWhatWasWritten) {
   EXPECT_TRUE(torch::equal(read.shapes, written.shapes));
   EXPECT_EQ(read.shapes.scalar_type(), torch::kHalf);
   EXPECT_TRUE(torch::equal(read.losses, written.losses));
-  torch::Tensor weight;
-  ReadNetworks(folder / "a.pt", [&](auto* archive) { archive->read("weight", weight, true); });
-  EXPECT_TRUE(torch::equal(weight, torch::ones({2, 3})));
+  ASSERT_EQ(read.networks.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {  // in the order in which they were written
+    EXPECT_EQ(read.networks[i].first, written.networks[i].first);
+    EXPECT_TRUE(torch::equal(read.networks[i].second, written.networks[i].second));
+  }
+}
+
+TEST(Checkpoint, OneThatWasReadIsWrittenWithTheSameBytes) {
+  const TempFolder folder;
+  Checkpoint checkpoint = Sample();
+  const torch::Tensor large = torch::arange(12, torch::kFloat).reshape({3, 4});
+  checkpoint.networks.emplace_back("turned", large.t());
+  WriteCheckpoint(folder / "a.pt", checkpoint);
+  WriteCheckpoint(folder / "b.pt", ReadCheckpoint(folder / "a.pt"));
+  EXPECT_EQ(ReadFile(folder / "a.pt"), ReadFile(folder / "b.pt"));
 }
 
 TEST(Checkpoint, EntriesOfTheArchiveHaveTheirDocumentedNames) {
@@ -60,7 +70,7 @@ TEST(Checkpoint, EntriesOfTheArchiveHaveTheirDocumentedNames) {
   Checkpoint checkpoint = Sample();
   for (const bool finished : {true, false}) {
     checkpoint.finished = finished;
-    WriteCheckpoint(folder / "a.pt", checkpoint, SaveTensor);
+    WriteCheckpoint(folder / "a.pt", checkpoint);
     EXPECT_EQ(ReadCheckpoint(folder / "a.pt").finished, finished);
     torch::serialize::InputArchive archive, networks;
     archive.load_from((folder / "a.pt").string());
@@ -78,7 +88,7 @@ TEST(Checkpoint, EntriesOfTheArchiveHaveTheirDocumentedNames) {
     EXPECT_TRUE(torch::equal(value("losses").toTensor(), checkpoint.losses));
     ASSERT_TRUE(archive.try_read("networks", networks));
     torch::Tensor weight;
-    networks.read("weight", weight, true);
+    networks.read("last/weight", weight, true);
     EXPECT_TRUE(torch::equal(weight, torch::ones({2, 3})));
   }
 }
@@ -91,15 +101,15 @@ TEST(Checkpoint, RefusesAnotherFormatOfTheSameVersion) {
   other.save_to((folder / "other.pt").string());
   EXPECT_NE(MessageOf(folder / "other.pt").find("another kind of archive"), std::string::npos);
   EXPECT_FALSE(IsCheckpoint(folder / "other.pt"));
-  WriteCheckpoint(folder / "a.pt", Sample(), SaveTensor);
+  WriteCheckpoint(folder / "a.pt", Sample());
   EXPECT_TRUE(IsCheckpoint(folder / "a.pt"));
 }
 
 TEST(Checkpoint, EqualStatesGiveEqualBytesUnderAnyName) {
   const TempFolder folder;
   const Checkpoint checkpoint = Sample();
-  WriteCheckpoint(folder / "a.pt", checkpoint, SaveTensor);
-  WriteCheckpoint(folder / "another.pt", checkpoint, SaveTensor);
+  WriteCheckpoint(folder / "a.pt", checkpoint);
+  WriteCheckpoint(folder / "another.pt", checkpoint);
   EXPECT_EQ(ReadFile(folder / "a.pt"), ReadFile(folder / "another.pt"));
 }
 
@@ -114,7 +124,7 @@ TEST(Checkpoint, NamesWhatIsWrongWithAFile) {
 
 TEST(Checkpoint, RefusesEveryTruncation) {
   const TempFolder folder;
-  WriteCheckpoint(folder / "a.pt", Sample(), SaveTensor);
+  WriteCheckpoint(folder / "a.pt", Sample());
   const std::string bytes = ReadFile(folder / "a.pt");
   for (std::size_t length = 0; length < bytes.size(); length += bytes.size() / 50 + 1) {
     WriteFileAtomic(folder / "cut.pt", bytes.substr(0, length));
@@ -143,7 +153,7 @@ TEST(Checkpoint, RefusesAForeignArchiveAndAnotherVersion) {
 
 TEST(Checkpoint, AFullDiskKeepsTheLastGoodOne) {
   const TempFolder folder;
-  WriteCheckpoint(folder / "a.pt", Sample(), SaveTensor);
+  WriteCheckpoint(folder / "a.pt", Sample());
   const std::string before = ReadFile(folder / "a.pt");
   Checkpoint large = Sample();
   large.shapes = torch::zeros({4, 1, 32, 32, 32}, torch::kHalf);
@@ -153,7 +163,7 @@ TEST(Checkpoint, AFullDiskKeepsTheLastGoodOne) {
   rlimit tight = limit;
   tight.rlim_cur = 10000;
   setrlimit(RLIMIT_FSIZE, &tight);
-  EXPECT_THROW(WriteCheckpoint(folder / "a.pt", large, SaveTensor), RuntimeFailure);
+  EXPECT_THROW(WriteCheckpoint(folder / "a.pt", large), RuntimeFailure);
   setrlimit(RLIMIT_FSIZE, &limit);
   EXPECT_EQ(ReadFile(folder / "a.pt"), before);
 }

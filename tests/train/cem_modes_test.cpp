@@ -10,7 +10,6 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/train/cem_run.h"
 #include "antigrasp/train/elites.h"
-#include "antigrasp/train/episode_loop.h"
 #include "antigrasp/train/sample_name.h"
 #include "tests/support/csv_rows.h"
 #include "tests/support/temp_folder.h"
@@ -95,9 +94,9 @@ TEST(CemRun, LatentModeMovesTheNoiseAndLeavesTheNetworksAlone) {
   const RunFolder run{folder / "run"};
   const RunConfig config = ConfigOfRun(run.root);
   GanTrainer first = MakeTrainer(config), middle = MakeTrainer(config), last = MakeTrainer(config);
-  ReadNetworks(run.EpisodeCheckpoint(0), [&](auto* archive) { first.LoadNetworks(archive); });
-  ReadNetworks(run.EpisodeCheckpoint(1), [&](auto* archive) { middle.LoadNetworks(archive); });
-  ReadNetworks(run.EpisodeCheckpoint(2), [&](auto* archive) { last.LoadNetworks(archive); });
+  first.LoadNetworks(ReadCheckpoint(run.EpisodeCheckpoint(0)).networks, "first");
+  middle.LoadNetworks(ReadCheckpoint(run.EpisodeCheckpoint(1)).networks, "middle");
+  last.LoadNetworks(ReadCheckpoint(run.EpisodeCheckpoint(2)).networks, "last");
   EXPECT_EQ(first.latent().means.abs().max().item<double>(), 0.0);
   EXPECT_FALSE(torch::equal(first.Sample(1, 0, 4), last.Sample(1, 0, 4)));
   // z of an episode lies around the z of the elites of the episode before, and a component of

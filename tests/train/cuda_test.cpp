@@ -3,7 +3,6 @@
 #include <torch/types.h>
 
 #include <memory>
-#include <sstream>
 
 #include "antigrasp/models/random_tensor.h"
 #include "antigrasp/train/gan_trainer.h"
@@ -58,13 +57,7 @@ TEST_F(Cuda, StepsLoseAsMuchAsOnTheCpu) {
 TEST_F(Cuda, WhatAGpuSavedIsTheSameOnTheCpu) {
   const auto gpu = Trainer(torch::kCUDA), cpu = Trainer(torch::kCPU);
   for (int step = 0; step < 3; ++step) gpu->Step(Grids());
-  std::stringstream file;
-  torch::serialize::OutputArchive saved;
-  gpu->Save(&saved);
-  saved.save_to(file);
-  torch::serialize::InputArchive read;
-  read.load_from(file);
-  cpu->Load(&read);
+  cpu->Load(gpu->State(), "gpu");
   EXPECT_EQ(cpu->step(), 3);
   EXPECT_LT((cpu->Sample(1, 0, 40) - gpu->Sample(1, 0, 40)).abs().max().item<float>(), 1e-3);
   const StepReport expected = gpu->Step(Grids()), found = cpu->Step(Grids());

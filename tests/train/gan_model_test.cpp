@@ -25,11 +25,7 @@ GanOptions Moving() {
   return options;
 }
 
-Tensors SavedBy(const ShapeModel& model) {
-  torch::serialize::OutputArchive archive;
-  model.Save(&archive);
-  return TensorsOf(&archive);
-}
+Tensors SavedBy(const ShapeModel& model) { return TensorsOf(model.State()); }
 
 void ExpectSame(const Tensors& a, const Tensors& b) {
   ASSERT_EQ(a.size(), b.size());

@@ -171,8 +171,7 @@ TEST(GanState, SavedNetworksAreTheAverageAndTheDiscriminatorInHalfPrecision) {
     EXPECT_TRUE(judge || name.starts_with("average/")) << name;
     EXPECT_TRUE((tensor == (judge ? 3.5 : 2.5)).all().item<bool>()) << name;
   }
-  torch::serialize::InputArchive archive = tiny_gan::ArchiveOf(saved);
-  other.LoadNetworks(&archive);
+  other.LoadNetworks(tiny_gan::NamedOf(saved), "file.pt");
   for (const auto& [name, tensor] : StateOf(other)) {
     if (name.starts_with("latent/") || name.starts_with("adam") || name == "progress") continue;
     const bool judge = name.starts_with("discriminator/");

@@ -1,11 +1,10 @@
 #include "antigrasp/train/gan_trainer.h"
 
 #include <gtest/gtest.h>
-#include <torch/serialize/archive.h>
 #include <torch/types.h>
 
+#include <algorithm>
 #include <limits>
-#include <sstream>
 
 #include "antigrasp/core/error.h"
 
@@ -34,36 +33,15 @@ torch::Tensor Spheres(std::int64_t count) {
   return ((radius - distance.view({1, 1, 32, 32, 32})) / 0.1).clamp(-1, 1);
 }
 
-std::string Saved(const GanTrainer& trainer) {
-  torch::serialize::OutputArchive archive;
-  trainer.Save(&archive);
-  std::ostringstream file;
-  archive.save_to(file);
-  return file.str();
-}
-
-void LoadFrom(const std::string& bytes, GanTrainer* trainer) {
-  std::istringstream file(bytes);
-  torch::serialize::InputArchive archive;
-  archive.load_from(file);
-  trainer->Load(&archive);
-}
-
-// All tensors of a saved state, in the order of their names.
-std::vector<std::pair<std::string, torch::Tensor>> State(const GanTrainer& trainer) {
-  std::istringstream file(Saved(trainer));
-  torch::serialize::InputArchive archive;
-  archive.load_from(file);
-  std::vector<std::pair<std::string, torch::Tensor>> state;
-  for (const std::string& key : archive.keys()) {
-    state.emplace_back(key, torch::Tensor());
-    archive.read(key, state.back().second, true);
-  }
+// All tensors of a trainer's state, copied.
+NamedTensors Saved(const GanTrainer& trainer) {
+  NamedTensors state = trainer.State();
+  for (auto& [name, tensor] : state) tensor = tensor.detach().clone();
   return state;
 }
 
 void ExpectSameState(const GanTrainer& a, const GanTrainer& b) {
-  const auto left = State(a), right = State(b);
+  const auto left = Saved(a), right = Saved(b);
   ASSERT_EQ(left.size(), right.size());
   for (std::size_t i = 0; i < left.size(); ++i) {
     EXPECT_EQ(left[i].first, right[i].first);
@@ -98,11 +76,11 @@ TEST(GanTrainer, ResumingEqualsGoingOnBitForBit) {
     straight.BeginEpisode(2, 8, true);
     Train(3, shapes, &straight);
     straight.Sample(1, 0, 2);  // sampling leaves no trace in what follows
-    const std::string bytes = Saved(straight);
+    const NamedTensors state = Saved(straight);
     Train(3, shapes, &straight);
 
     GanTrainer resumed(model, TinyGan(), 5, torch::kCPU);
-    LoadFrom(bytes, &resumed);
+    resumed.Load(state, "state");
     EXPECT_EQ(resumed.episode(), 2);
     EXPECT_EQ(resumed.iterations(), 8);
     EXPECT_EQ(resumed.step(), 3);
@@ -114,7 +92,7 @@ TEST(GanTrainer, ResumingEqualsGoingOnBitForBit) {
 
 TEST(GanTrainer, TheStateHoldsEveryPartByName) {
   GanTrainer trainer(TinyModel(), TinyGan(), 5, torch::kCPU);
-  const auto state = State(trainer);
+  const auto state = Saved(trainer);
   for (const std::string name :
        {"generator/last_weight", "generator/norm0/running_mean", "discriminator/layer1/weight",
         "discriminator/layer5/u", "average/project/weight", "adam_generator/first/0",
@@ -131,14 +109,14 @@ TEST(GanTrainer, LoadRefusesAStateThatDoesNotFitAndChangesNothing) {
 
   ModelOptions wider = TinyModel();
   wider.width = 4;
-  const std::string wrong_shape = Saved(GanTrainer(wider, TinyGan(), 5, torch::kCPU));
-  EXPECT_THROW(LoadFrom(wrong_shape, &trainer), InputError);
+  const NamedTensors wrong_shape = Saved(GanTrainer(wider, TinyGan(), 5, torch::kCPU));
+  EXPECT_THROW(trainer.Load(wrong_shape, "state"), InputError);
 
   ModelOptions plain = TinyModel();
   plain.batch_norm = false;
-  const std::string missing = Saved(GanTrainer(plain, TinyGan(), 5, torch::kCPU));
+  const NamedTensors missing = Saved(GanTrainer(plain, TinyGan(), 5, torch::kCPU));
   try {
-    LoadFrom(missing, &trainer);
+    trainer.Load(missing, "state");
     FAIL() << "a missing tensor was accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("norm0"), std::string::npos) << error.what();
@@ -196,10 +174,10 @@ TEST(GanTrainer, AnEpisodeKeepsTheNetworksAndRestartsTheRest) {
   GanTrainer trainer(TinyModel(), TinyGan(), 5, torch::kCPU);
   trainer.BeginEpisode(0, 3, true);
   Train(3, shapes, &trainer);
-  auto before = State(trainer);
+  auto before = Saved(trainer);
   trainer.BeginEpisode(1, 5, false);
   EXPECT_EQ(trainer.step(), 0);
-  auto after = State(trainer);
+  auto after = Saved(trainer);
   for (std::size_t i = 0; i < before.size(); ++i) {
     const std::string& name = before[i].first;
     if (name.rfind("generator/", 0) == 0 || name.rfind("discriminator/", 0) == 0) {
@@ -209,7 +187,7 @@ TEST(GanTrainer, AnEpisodeKeepsTheNetworksAndRestartsTheRest) {
     }
   }
   trainer.BeginEpisode(1, 5, true);
-  EXPECT_FALSE(torch::equal(State(trainer)[0].second, before[0].second));
+  EXPECT_FALSE(torch::equal(Saved(trainer)[0].second, before[0].second));
 }
 
 TEST(GanTrainer, MoreDiscriminatorStepsAndNoSpectralNormRun) {

@@ -11,6 +11,7 @@
 #include "antigrasp/core/rng.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/train/gan_model.h"
+#include "antigrasp/train/loss_table.h"
 #include "antigrasp/train/sample_name.h"
 #include "tests/support/csv_rows.h"
 #include "tests/support/shapes.h"
@@ -52,8 +53,9 @@ TEST(LossesCsv, HasEveryNumberOfAnUpdateUnderItsOwnName) {
   report.gradient_generator = 4.5;
   report.rate_discriminator = 5.5;
   report.rate_generator = 6.5;
-  EXPECT_EQ(LossesCsv(GanScalarNames(), {RowOf(20, GanScalars(report, 7.5)),
-                                         RowOf(30, GanScalars(report, std::nan("")))}),
+  EXPECT_EQ(LossesCsv({GanScalarNames(),
+                       {RowOf(20, GanScalars(report, 7.5)),
+                        RowOf(30, GanScalars(report, std::nan("")))}}),
             "step,loss_discriminator,loss_generator,gradient_discriminator,gradient_generator,"
             "rate_discriminator,rate_generator,largest_sigma\n"
             "20,1.5,2.5,3.5,4.5,5.5,6.5,7.5\n"
@@ -117,10 +119,9 @@ TEST(WriteElites, KeepsTheirNumbersTheirGridsAndHowTheyWereChosen) {
   const TempFolder folder;
   RunConfig config;
   config.seed = 5;
-  ScoredStage scored;
-  scored.values = torch::zeros({4, 1, 32, 32, 32});
-  for (int i = 0; i < 4; ++i) scored.values[i][0][3][2][1] = 0.1 * (i + 1);
-  WriteElites(folder / "elites.h5", scored, {1, 3}, 2, config);
+  const torch::Tensor values = torch::zeros({2, 1, 32, 32, 32});
+  for (int k = 0; k < 2; ++k) values[k][0][3][2][1] = 0.2 * (k + 1);
+  WriteElites(folder / "elites.h5", values, {1, 3}, 2, config);
   ShapeSet set = ReadShapeSet(folder / "elites.h5");
   EXPECT_EQ(set.kind, "elites");
   EXPECT_EQ(set.seed, 5U);
@@ -131,7 +132,7 @@ TEST(WriteElites, KeepsTheirNumbersTheirGridsAndHowTheyWereChosen) {
   EXPECT_NEAR(set.grids[0].values[node], 0.02F, 1e-7);  // 0.2 and 0.4 of the truncation
   EXPECT_NEAR(set.grids[1].values[node], 0.04F, 1e-7);
   config.cem.select = EliteOrder::kRandom;
-  WriteElites(folder / "elites.h5", scored, {1, 3}, 2, config);
+  WriteElites(folder / "elites.h5", values, {1, 3}, 2, config);
   EXPECT_EQ(ReadShapeSet(folder / "elites.h5").provenance,
             "antigrasp train, episode 2, random samples");
 }

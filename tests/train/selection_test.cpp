@@ -66,13 +66,18 @@ RunConfig Config(EliteRule variant) {
   return config;
 }
 
+torch::Tensor Learnt(const EliteSelector& selector, const ScoredStage& scored,
+                     const Selection& selection) {
+  return selector.TrainingSet(selector.Elites(scored, selection), selection);
+}
+
 TEST(EliteSelector, OfThePaperKeepsTheLeastGraspableHoweverAlikeTheyAre) {
   const RunConfig config = Config(EliteRule::kPaper);
   const EliteSelector selector(config, Prior());
   const Selection selection = selector.Select(Stage(), 1);
   EXPECT_EQ(selection.elites, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6, 7}));
   EXPECT_TRUE(selection.replayed.empty());
-  EXPECT_EQ(selector.TrainingSet(Stage(), selection).size(0), 8);
+  EXPECT_EQ(Learnt(selector, Stage(), selection).size(0), 8);
 }
 
 TEST(EliteSelector, StratifiedKeepsThePriorsSharesAndReplaysWhatIsMissing) {
@@ -81,7 +86,7 @@ TEST(EliteSelector, StratifiedKeepsThePriorsSharesAndReplaysWhatIsMissing) {
   const EliteSelector selector(config, Prior());
   const Selection selection = selector.Select(Stage(), 1);
   EXPECT_EQ(selection.elites.size() + selection.replayed.size(), 40U);
-  const torch::Tensor set = selector.TrainingSet(Stage(), selection).to(torch::kFloat);
+  const torch::Tensor set = Learnt(selector, Stage(), selection).to(torch::kFloat);
   for (int f = 0; f < kFamilies; ++f) {
     const auto members = (set.select(2, f).flatten(1).mean(1) > 0.5).sum().item<std::int64_t>();
     EXPECT_EQ(members, kEach) << "family " << f;
@@ -100,7 +105,7 @@ TEST(EliteSelector, MixesInTheAskedShareOfThePriorSet) {
   EXPECT_EQ(first.replayed.size(), 4U);
   EXPECT_EQ(std::set<std::int64_t>(first.replayed.begin(), first.replayed.end()).size(), 4U);
   EXPECT_NE(first.replayed, second.replayed) << "every episode draws anew";
-  EXPECT_EQ(selector.TrainingSet(Stage(), first).size(0), 12);
+  EXPECT_EQ(Learnt(selector, Stage(), first).size(0), 12);
 }
 
 TEST(EliteSelector, RedistancesElitesToTheirMeshes) {
@@ -118,7 +123,7 @@ TEST(EliteSelector, RedistancesElitesToTheirMeshes) {
   const torch::Tensor prior = ValuesOf(ball);
   const EliteSelector selector(config, prior);
   const Selection selection = selector.Select(scored, 0);
-  const torch::Tensor learnt = selector.TrainingSet(scored, selection);
+  const torch::Tensor learnt = Learnt(selector, scored, selection);
   EXPECT_EQ(learnt.size(0), 1);
   EXPECT_EQ(learnt.scalar_type(), torch::kHalf);
   EXPECT_LT((learnt - prior).abs().max().item<double>(), 0.03);  // of 0.1: 0.003 of the cube
@@ -129,7 +134,7 @@ TEST(EliteSelector, TrainsOnTheElitesOfTheSamplesAndThenTheReplayedOfThePriorSet
   const RunConfig config = Config(EliteRule::kPaper);
   const torch::Tensor prior = Prior();
   const ScoredStage stage = Stage();
-  const torch::Tensor set = EliteSelector(config, prior).TrainingSet(stage, {{1, 21}, {0, 37, 5}});
+  const torch::Tensor set = Learnt(EliteSelector(config, prior), stage, {{1, 21}, {0, 37, 5}});
   ASSERT_EQ(set.size(0), 5);
   EXPECT_TRUE(torch::equal(set[0], stage.values[1].to(torch::kHalf)));
   EXPECT_TRUE(torch::equal(set[1], stage.values[21].to(torch::kHalf)));

@@ -14,6 +14,7 @@
 #include "antigrasp/train/cem_run.h"
 #include "antigrasp/train/elites.h"
 #include "antigrasp/train/scalar_log.h"
+#include "antigrasp/train/statistics_table.h"
 #include "tests/support/csv_rows.h"
 #include "tests/support/temp_folder.h"
 #include "tests/train/run_files.h"
@@ -65,7 +66,7 @@ RunConfig WithPrior(const TempFolder& folder, RunConfig config) {
 
 SphereModel StateOf(const RunConfig& config, const fs::path& checkpoint) {
   SphereModel model(config);
-  ReadNetworks(checkpoint, [&](auto* archive) { model.Load(archive); });
+  model.Load(ReadCheckpoint(checkpoint).networks, checkpoint.string());
   return model;
 }
 
@@ -145,6 +146,32 @@ TEST(ShapeModel, SpheresGiveEqualBytesAfterAnyInterruption) {
   ExpectSameFiles(folder / "a", folder / "stopped");
 }
 
+// The network values that elites.h5 of an episode gives to whoever trains on it.
+torch::Tensor EliteValues(const RunFolder& run, int episode, const RunConfig& config) {
+  return NetworkValuesOf(ReadShapeSet(run.Elites(episode)), config.model, "elites.h5");
+}
+
+TEST(ShapeModel, ElitesOnFileAreBitForBitWhatTheNextEpisodeLearnsFrom) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  RunConfig config = WithPrior(folder, TinySpheres());
+  config.cem.redistance = true;
+  config.cem.prior_fraction = 0.5;
+  config.cem.episodes = 1;
+  StartRun(config, folder / "run", &observer, MakeSpheres);
+  const RunFolder run{folder / "run"};
+  const torch::Tensor learnt = ReadCheckpoint(run.EpisodeCheckpoint(1)).shapes;
+  ASSERT_EQ(learnt.size(0), 5);  // three elites and two of the prior set
+  EXPECT_TRUE(torch::equal(EliteValues(run, 0, config), learnt.slice(0, 0, 3)));
+  // They are the distances to the meshes, a little off those that were sampled.
+  config.cem.redistance = false;
+  StartRun(config, folder / "sampled", &observer, MakeSpheres);
+  const torch::Tensor sampled = EliteValues(RunFolder{folder / "sampled"}, 0, config);
+  const double off = (sampled - learnt.slice(0, 0, 3)).abs().max().item<double>();
+  EXPECT_GT(off, 0.0);
+  EXPECT_LT(off, 0.05);
+}
+
 TEST(ShapeModel, LatentModeMovesTheNoiseOfSpheres) {
   const TempFolder folder;
   StoppingObserver observer;
@@ -166,12 +193,18 @@ TEST(ShapeModel, ACheckpointOfAnotherModelIsRefused) {
   config.cem.episodes = 0;
   StartRun(config, folder / "run", &observer, MakeSpheres);
   const RunFolder run{folder / "run"};
-  EXPECT_THROW(ResumeRun(run.root, &observer), InputError);  // the GAN finds no networks
+  try {
+    ResumeRun(run.root, &observer);
+    FAIL() << "the GAN went on with spheres";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "networks of another shape model (" + run.Latest().string() +
+                  "): expected those of a GAN (average/..., discriminator/...)");
+  }
   // Its tensors, but losses of the GAN.
-  const SphereModel model = StateOf(config, run.Latest());
   Checkpoint checkpoint = ReadCheckpoint(run.Latest());
   checkpoint.losses = torch::zeros({2, 8}, torch::kDouble);
-  WriteCheckpoint(run.Latest(), checkpoint, [&](auto* archive) { model.Save(archive); });
+  WriteCheckpoint(run.Latest(), checkpoint);
   try {
     ResumeRun(run.root, &observer, MakeSpheres);
     FAIL() << "losses of another model were accepted";

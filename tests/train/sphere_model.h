@@ -1,6 +1,5 @@
 #pragma once
 
-#include <torch/serialize/archive.h>
 #include <torch/types.h>
 
 #include <cmath>
@@ -78,19 +77,19 @@ class SphereModel : public ShapeModel {
   }
   const LatentMixture& latent() const override { return latent_; }
 
-  void Save(torch::serialize::OutputArchive* archive) const override {
-    WriteTensors(State(latent_), archive);
-  }
-  void Load(torch::serialize::InputArchive* archive) override {
-    torch::Tensor weights;
-    archive->try_read("latent/weights", weights, /*is_buffer=*/true);
-    const std::int64_t n = weights.defined() ? weights.size(0) : 1;
+  NamedTensors State() const override { return StateWith(latent_); }
+  NamedTensors Networks() const override { return State(); }
+  void Load(const NamedTensors& state, const std::string& origin) override {
+    const torch::Tensor* const weights = FindTensor(state, "latent/weights");
+    const std::int64_t n = weights != nullptr ? weights->size(0) : 1;
     const LatentMixture read = {torch::empty({n}), torch::empty({n, model_.latent}),
                                 torch::empty({n, model_.latent})};
-    ReadTensors(State(read), "checkpoint", archive);
+    TakeTensors(state, origin, StateWith(read));
     latent_ = read;
   }
-  void LoadNetworks(torch::serialize::InputArchive* archive) override { Load(archive); }
+  void LoadNetworks(const NamedTensors& state, const std::string& origin) override {
+    Load(state, origin);
+  }
 
   // Of spheres around the origin, by the nodes whose distance is not cut off.
   double MeanRadius(const torch::Tensor& shapes) const {
@@ -105,7 +104,7 @@ class SphereModel : public ShapeModel {
   void SetProgress(std::int64_t episode, std::int64_t iterations, std::int64_t step) {
     progress_.copy_(torch::tensor(std::vector<std::int64_t>{episode, iterations, step}));
   }
-  NamedTensors State(const LatentMixture& latent) const {
+  NamedTensors StateWith(const LatentMixture& latent) const {
     NamedTensors state = {{"sphere/radius", radius_}, {"progress", progress_}};
     AppendMixture("latent/", latent, &state);
     return state;

@@ -26,9 +26,9 @@ std::vector<std::string> RowsOf(const std::filesystem::path& scores) {
   return rows;
 }
 
-std::string RowOf(const ScoredSample& sample) {
-  if (!sample.object.ok()) return std::string(Name(sample.object.status)) + " ";
-  return std::string(Name(sample.score.status)) + " " + FormatDouble(sample.score.value);
+std::string RowOf(const RemeshResult& object, const Graspability& score) {
+  if (!object.ok()) return std::string(Name(object.status)) + " ";
+  return std::string(Name(score.status)) + " " + FormatDouble(score.value);
 }
 
 // Some ten seconds: two whole runs, because latent mode draws its samples another way, and every
@@ -49,9 +49,10 @@ TEST(StageSamples, AreThoseThatTheRunScoredInAnyOrderAndForAnyNumberOfThreads) {
       for (const int threads : {1, 3}) {
         config.threads = config.torch_threads = threads;
         const auto samples = StageSamples(run, config, stage, indices, &observer);
-        ASSERT_EQ(samples.size(), indices.size());
+        ASSERT_EQ(samples.objects.size(), indices.size());
         for (std::size_t j = 0; j < indices.size(); ++j) {
-          EXPECT_EQ(RowOf(samples[j]), rows[static_cast<std::size_t>(indices[j])])
+          EXPECT_EQ(RowOf(samples.objects[j], samples.scores[j]),
+                    rows[static_cast<std::size_t>(indices[j])])
               << ChoiceName(mode) << " " << stage << " " << indices[j];
         }
       }

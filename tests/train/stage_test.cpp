@@ -173,10 +173,26 @@ TEST(ScoreStage, DrawsForSampleIFromTheRunsSeedAndI) {
   EXPECT_EQ(scored.scores[1].status, GraspabilityStatus::kNotEvaluable);
   EXPECT_EQ(scored.graspabilities[2], expected(7, 2));
   EXPECT_EQ(scored.scores[2].value, scored.graspabilities[2]);
-  EXPECT_EQ(ScoreSample(ball, 2, config).score.value, expected(7, 2));
+  EXPECT_EQ(ScoreSamples(ball.unsqueeze(0), {2}, config, nullptr).scores[0].value, expected(7, 2));
   // Another number or seed gives other draws.
   EXPECT_NE(expected(7, 0), expected(7, 2));
   EXPECT_NE(expected(7, 0), expected(8, 0));
+}
+
+TEST(ScoreStageBy, PutsAnyScoreOfAMeshInThePlaceOfTheGraspability) {
+  const torch::Tensor ball = Ball(), none = torch::full_like(ball, -1.0);
+  const auto extent = [](const TriangleMesh& mesh) { return Bounds(mesh).Extent().maxCoeff(); };
+  const ScoredStage scored =
+      ScoreStageBy(extent, torch::stack({none, ball}), shapes::Tiny(), nullptr);
+  EXPECT_NEAR(scored.graspabilities[1], 0.4, 0.005);  // a sixth of a cell
+  EXPECT_EQ(scored.scores[1].value, scored.graspabilities[1]);
+  EXPECT_EQ(scored.scores[1].status, GraspabilityStatus::kOk);
+  EXPECT_TRUE(std::isnan(scored.graspabilities[0]));
+  EXPECT_EQ(scored.objects[0].status, RemeshStatus::kEmpty);
+  EXPECT_EQ(scored.scores[0].status, GraspabilityStatus::kNotEvaluable);
+  const auto nothing = [](const TriangleMesh&) { return std::nan(""); };
+  const ScoredStage rejected = ScoreStageBy(nothing, ball.unsqueeze(0), shapes::Tiny(), nullptr);
+  EXPECT_EQ(rejected.scores[0].status, GraspabilityStatus::kNotEvaluable);
 }
 
 }  // namespace

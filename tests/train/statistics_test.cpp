@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/train/statistics_table.h"
 
 namespace antigrasp {
 namespace {

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <torch/serialize/archive.h>
 #include <torch/types.h>
 
 #include <map>
-#include <sstream>
 #include <string>
 
 #include "antigrasp/train/gan_trainer.h"
@@ -31,38 +29,17 @@ inline GanOptions StillOptions() {  // no network moves
   return options;
 }
 
-inline Tensors TensorsOf(torch::serialize::OutputArchive* written) {
-  std::stringstream file;
-  written->save_to(file);
-  torch::serialize::InputArchive archive;
-  archive.load_from(file);
+inline Tensors TensorsOf(const NamedTensors& named) {  // copies
   Tensors tensors;
-  for (const std::string& key : archive.keys()) archive.read(key, tensors[key], true);
+  for (const auto& [name, tensor] : named) tensors[name] = tensor.detach().clone();
   return tensors;
 }
-inline Tensors StateOf(const GanTrainer& trainer) {
-  torch::serialize::OutputArchive archive;
-  trainer.Save(&archive);
-  return TensorsOf(&archive);
-}
-inline Tensors NetworksOf(const GanTrainer& trainer) {
-  torch::serialize::OutputArchive archive;
-  trainer.SaveNetworks(&archive);
-  return TensorsOf(&archive);
-}
+inline Tensors StateOf(const GanTrainer& trainer) { return TensorsOf(trainer.State()); }
+inline Tensors NetworksOf(const GanTrainer& trainer) { return TensorsOf(trainer.Networks()); }
 
-inline torch::serialize::InputArchive ArchiveOf(const Tensors& tensors) {
-  torch::serialize::OutputArchive written;
-  for (const auto& [name, tensor] : tensors) written.write(name, tensor, true);
-  std::stringstream file;
-  written.save_to(file);
-  torch::serialize::InputArchive archive;
-  archive.load_from(file);
-  return archive;
-}
+inline NamedTensors NamedOf(const Tensors& tensors) { return {tensors.begin(), tensors.end()}; }
 inline void SetState(const Tensors& tensors, GanTrainer* trainer) {
-  torch::serialize::InputArchive archive = ArchiveOf(tensors);
-  trainer->Load(&archive);
+  trainer->Load(NamedOf(tensors), "state");
 }
 
 inline torch::Tensor Solids() { return torch::ones({3, 1, 32, 32, 32}); }  // +1 at every node

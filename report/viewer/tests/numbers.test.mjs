@@ -194,6 +194,27 @@ describe("a run's charts and tables", () => {
   });
 });
 
+test("another shape model's scalars have a chart each and their means in the table", async () => {
+  const losses = [0, 1].map((episode) => ({
+    episode,
+    control: false,
+    columns: { step: [10, 20], radius: [0.25, 0.75], mean_gap: [4, 8], "<i>": [null, null] },
+  }));
+  const report = emptyReport({ run: { stages: RUN, losses } });
+  const page = await open(browser, writeReport("spheres.html", fill(TEMPLATE, report)));
+  const shown = await figures(page);
+  assert.equal(shown["Losses"], undefined);
+  assert.deepEqual(shown["Radius"].header.slice(1), ["last update", "radius", "mean_gap"]);
+  assert.deepEqual(shown["Radius"].rows, [
+    ["episode 0", "20", "0.5000", "6.0000"],
+    ["episode 1", "20", "0.5000", "6.0000"],
+  ]);
+  await page.locator("summary", { hasText: /^Mean gap$/ }).click();
+  const curve = page.locator(".figure .figure", { hasText: "Mean gap" }).locator("svg g[aria-label=line] path");
+  assert.equal((await curve.first().getAttribute("d")).match(/M/g).length, 2, "a curve for every episode");
+  await expectQuiet(page);
+});
+
 describe("perturbed objects", () => {
   let page;
   before(async () => {

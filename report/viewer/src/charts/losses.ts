@@ -1,28 +1,77 @@
 import * as Plot from "@observablehq/plot";
-import type { Losses } from "../data/report";
+import type { Losses, Num } from "../data/report";
 import { details, h } from "../dom";
 import { fixed, known } from "../format";
-import { COLOURS, figure, key } from "./figure";
+import { COLOURS, figure, key, type Numbers } from "./figure";
 
 interface Curve {
   column: string;
   label: string;
   colour: string;
+  /** Its heading in the table of numbers; without one it is not there. */
+  heading?: string;
 }
 
-const LOSSES: Curve[] = [
-  { column: "loss_discriminator", label: "discriminator", colour: "var(--run)" },
-  { column: "loss_generator", label: "generator", colour: "var(--control)" },
+interface Group {
+  title: string;
+  label: string;
+  log: boolean;
+  curves: Curve[];
+}
+
+const curve = (column: string, label: string, colour: string, heading?: string) => ({ column, label, colour, heading });
+
+/** The scalars of the GAN, which belong together in pairs. */
+const OF_THE_GAN: Group[] = [
+  {
+    title: "Losses",
+    label: "loss",
+    log: false,
+    curves: [
+      curve("loss_discriminator", "discriminator", "var(--run)", "discriminator"),
+      curve("loss_generator", "generator", "var(--control)", "generator"),
+    ],
+  },
+  {
+    title: "Gradient norms",
+    label: "2-norm over all parameters",
+    log: true,
+    curves: [
+      curve("gradient_discriminator", "discriminator", "var(--run)", "gradient, d."),
+      curve("gradient_generator", "generator", "var(--control)", "gradient, g."),
+    ],
+  },
+  {
+    title: "Learning rates",
+    label: "learning rate",
+    log: true,
+    curves: [
+      curve("rate_discriminator", "discriminator", "var(--run)"),
+      curve("rate_generator", "generator", "var(--control)"),
+    ],
+  },
+  {
+    title: "Singular values",
+    label: "largest σ of a discriminator's weight",
+    log: true,
+    curves: [curve("largest_sigma", "largest singular value", "var(--run)", "largest σ")],
+  },
 ];
-const GRADIENTS: Curve[] = [
-  { column: "gradient_discriminator", label: "discriminator", colour: "var(--run)" },
-  { column: "gradient_generator", label: "generator", colour: "var(--control)" },
-];
-const RATES: Curve[] = [
-  { column: "rate_discriminator", label: "discriminator", colour: "var(--run)" },
-  { column: "rate_generator", label: "generator", colour: "var(--control)" },
-];
-const SIGMA: Curve[] = [{ column: "largest_sigma", label: "largest singular value", colour: "var(--run)" }];
+
+/** The charts of whatever was recorded: those of the GAN, then one for every scalar of another name. */
+function groupsOf(losses: Losses[]): Group[] {
+  const grouped = new Set(["step", ...OF_THE_GAN.flatMap((group) => group.curves.map((c) => c.column))]);
+  const names = new Set(losses.flatMap((l) => Object.keys(l.columns)));
+  const others = [...names]
+    .filter((name) => !grouped.has(name))
+    .map((name) => ({
+      title: name.charAt(0).toUpperCase() + name.slice(1).replaceAll("_", " "),
+      label: name,
+      log: false,
+      curves: [curve(name, name, "var(--run)", name)],
+    }));
+  return [...OF_THE_GAN, ...others].filter((group) => has(losses, group.curves));
+}
 
 /** Curves of all episodes one after the other: a line breaks where an episode begins or a value is missing. */
 function points(losses: Losses[], curve: Curve) {
@@ -45,14 +94,7 @@ function points(losses: Losses[], curve: Curve) {
   return { out, starts };
 }
 
-function lossChart(
-  losses: Losses[],
-  curves: Curve[],
-  log: boolean,
-  label: string,
-  width: number,
-  height: number,
-): Element {
+function lossChart(losses: Losses[], { label, log, curves }: Group, width: number, height: number): Element {
   const { starts } = points(losses, curves[0]);
   const positive = (v: number) => (log && v <= 0 ? NaN : v);
   return Plot.plot({
@@ -102,67 +144,49 @@ function has(losses: Losses[], curves: Curve[]): boolean {
   return curves.some((curve) => losses.some((l) => (l.columns[curve.column] ?? []).some(known)));
 }
 
-function summary(losses: Losses[]): string[][] {
-  return losses.map(({ episode, columns }) => {
-    const steps = (columns.step ?? []).filter(known);
-    const tail = (name: string) => {
-      const values = (columns[name] ?? []).filter(known).slice(-10);
-      return values.length ? fixed(values.reduce((a, b) => a + b, 0) / values.length, 4) : "–";
-    };
-    return [
+/** The mean of every scalar over the last ten records of an episode. */
+function summary(losses: Losses[], curves: Curve[]): Numbers {
+  const mean = (values: Num[]) => {
+    const last = values.filter(known).slice(-10);
+    return last.length ? fixed(last.reduce((a, b) => a + b, 0) / last.length, 4) : "–";
+  };
+  return {
+    header: ["last ten records", "last update", ...curves.map((c) => c.heading ?? c.label)],
+    rows: losses.map(({ episode, columns }) => [
       `episode ${episode}`,
-      String(steps[steps.length - 1] ?? "–"),
-      tail("loss_discriminator"),
-      tail("loss_generator"),
-      tail("gradient_discriminator"),
-      tail("gradient_generator"),
-      tail("largest_sigma"),
-    ];
-  });
+      String((columns.step ?? []).filter(known).pop() ?? "–"),
+      ...curves.map((c) => mean(columns[c.column] ?? [])),
+    ]),
+  };
 }
 
-/** Losses, with gradient norms, rates, singular values and the control's losses folded away. */
+/** The first group of scalars, a GAN's losses, with the others and the control's folded away. */
 export function lossFigure(all: Losses[], control = false): HTMLElement | null {
   const losses = all.filter((l) => l.control === control).sort((a, b) => a.episode - b.episode);
-  if (!has(losses, LOSSES)) return null;
+  const groups = groupsOf(losses);
+  if (!groups.length) return null;
+  const [first, ...folded] = groups;
   const element = figure({
-    title: control ? "Losses of the control" : "Losses",
-    legend: key([
-      ["discriminator", "var(--run)", "line"],
-      ["generator", "var(--control)", "line"],
-    ]),
-    draw: (width) => lossChart(losses, LOSSES, false, "loss", width, 260),
-    numbers: {
-      header: [
-        "last ten records",
-        "last update",
-        "discriminator",
-        "generator",
-        "gradient, d.",
-        "gradient, g.",
-        "largest σ",
-      ],
-      rows: summary(losses),
-    },
+    title: control ? `${first.title} of the control` : first.title,
+    legend: first.curves.length > 1 ? key(first.curves.map((c) => [c.label, c.colour, "line"])) : undefined,
+    draw: (width) => lossChart(losses, first, width, 260),
+    numbers: summary(
+      losses,
+      groups.flatMap((group) => group.curves).filter((c) => c.heading),
+    ),
   });
-  const more: [string, Curve[], string][] = [
-    ["Gradient norms", GRADIENTS, "2-norm over all parameters"],
-    ["Learning rates", RATES, "learning rate"],
-    ["Singular values", SIGMA, "largest σ of a discriminator's weight"],
-  ];
-  const folded = more.filter(([, curves]) => has(losses, curves));
   if (folded.length) {
+    const titles = folded.map(({ title }, i) => (i ? title.charAt(0).toLowerCase() + title.slice(1) : title));
     element.append(
       details(
-        "Gradient norms, rates, singular values",
-        ...folded.map(([title, curves, label]) => {
-          const inner = figure({ title, draw: (width) => lossChart(losses, curves, true, label, width, 210) });
-          return h("div", {}, inner);
-        }),
+        titles.join(", "),
+        ...folded.map((group) =>
+          h("div", {}, figure({ title: group.title, draw: (width) => lossChart(losses, group, width, 210) })),
+        ),
       ),
     );
   }
   const twin = control ? null : lossFigure(all, true);
-  if (twin) element.append(details("Losses of the control", twin));
+  if (twin) element.append(details(`${first.title} of the control`, twin));
   return element;
 }

@@ -1,4 +1,4 @@
-#include "antigrasp/train/tensor_archive.h"
+#include "antigrasp/models/named_tensors.h"
 
 #include <gtest/gtest.h>
 #include <torch/types.h>
@@ -6,23 +6,20 @@
 #include <limits>
 
 #include "antigrasp/core/error.h"
-#include "antigrasp/train/network_tensors.h"
-#include "tests/train/tiny_gan.h"
 
 namespace antigrasp {
 namespace {
 
-std::string Refusal(const NamedTensors& wanted, const tiny_gan::Tensors& stored) {
-  torch::serialize::InputArchive archive = tiny_gan::ArchiveOf(stored);
+std::string Refusal(const NamedTensors& wanted, const NamedTensors& stored) {
   try {
-    ReadTensors(wanted, "here.pt", &archive);
+    TakeTensors(stored, "here.pt", wanted);
   } catch (const InputError& error) {
     return error.what();
   }
   return "none";
 }
 
-TEST(TensorArchive, ReadsTensorsByNameAndHalfPrecisionAsFloat) {
+TEST(NamedTensors, AreTakenByNameAndHalfPrecisionAsFloat) {
   const torch::Tensor a = torch::zeros({2}), b = torch::zeros({2}),
                       n = torch::zeros({}, torch::kLong);
   // Numbers that a half holds.
@@ -36,7 +33,7 @@ TEST(TensorArchive, ReadsTensorsByNameAndHalfPrecisionAsFloat) {
   EXPECT_EQ(n.item<std::int64_t>(), 9);
 }
 
-TEST(TensorArchive, RefusesWhatDoesNotFitAndThenChangesNothing) {
+TEST(NamedTensors, ThatDoNotFitAreRefusedAndThenNothingChanges) {
   const torch::Tensor a = torch::zeros({2}), half = torch::zeros({2}, torch::kHalf);
   const torch::Tensor good = torch::ones({2});
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -52,25 +49,6 @@ TEST(TensorArchive, RefusesWhatDoesNotFitAndThenChangesNothing) {
   refused(wanted, torch::tensor({1.0F, nan}), "b is damaged");
   refused({{"a", a}, {"b", half}}, good, "b is Float [2]");
   refused({{"a", a}, {"c", half}}, good, "no tensor c");
-}
-
-TEST(NetworkTensors, AMixturesAndAnOptimisersPartsHaveTheirNames) {
-  const LatentMixture mixture{torch::full({1}, 1.0), torch::full({1, 2}, 2.0),
-                              torch::full({1, 2}, 3.0)};
-  NamedTensors named;
-  AppendMixture("z/", mixture, &named);
-  const Adam adam({torch::zeros({1})}, 0.0, 0.5);
-  adam.first_moments()[0].fill_(4.0);
-  adam.second_moments()[0].fill_(5.0);
-  adam.steps().fill_(6);
-  AppendAdam("adam/", adam, &named);
-  const std::vector<std::string> names = {"z/weights",    "z/means",       "z/deviations",
-                                          "adam/first/0", "adam/second/0", "adam/steps"};
-  ASSERT_EQ(named.size(), names.size());
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    EXPECT_EQ(named[i].first, names[i]);
-    EXPECT_EQ(named[i].second.flatten()[0].item<double>(), static_cast<double>(i + 1)) << names[i];
-  }
 }
 
 }  // namespace
