@@ -32,7 +32,6 @@ ShapeSet PriorOf(const RunConfig& config, RunObserver* observer) {
 torch::Tensor MakePrior(const RunConfig& config, const RunFolder& run, RunObserver* observer) {
   const ShapeSet set = PriorOf(config, observer);
   torch::Tensor values = NetworkValuesOf(set, config.model, config.prior_file);
-  MakeFolder(run.root);
   WriteShapeSet(run.Prior(), set);
   return values;
 }
