@@ -1,24 +1,19 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/core/atomic_file.h"
-#include "antigrasp/core/csv_writer.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/rng.h"
+#include "antigrasp/datasets/comparison_table.h"
 #include "antigrasp/datasets/objects.h"
-#include "antigrasp/datasets/surface_comparison.h"
 
 namespace antigrasp {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct CompareFlags {
   std::string samples, reference, training, out;
@@ -63,70 +58,6 @@ void KeepAtRandom(std::size_t count, std::uint64_t seed, std::uint64_t set,
   *meshes = std::move(kept);
 }
 
-// One line of the result; NaN where a number does not exist.
-struct Row {
-  const char* name;   // in the file
-  const char* label;  // on the screen, with the unit
-  double samples, reference;
-  double factor = 1.0;  // on the screen: 100 for percent
-};
-
-std::vector<Row> Rows(const SurfaceComparison& found, const LoadedSet& samples,
-                      const LoadedSet& reference) {
-  const auto shapes = static_cast<double>(samples.meshes.size());
-  const SetComparison& sets = found.sets;
-  const SpreadComparison& spread = found.spread;
-  const SetLook &a = found.samples, &b = found.reference;
-  std::vector<Row> rows = {
-      {"shapes", "shapes", shapes, shapes},
-      {"left_out", "left out: no solid", double(samples.left_out), double(reference.left_out)},
-      {"size", "size (mean diagonal)", a.size, b.size},
-      {"coverage", "coverage (COV), %", sets.coverage, kNone, 100.0},
-      {"nna", "1-NN accuracy (1-NNA), %", sets.nna, kNone, 100.0},
-      {"matching", "minimum matching distance (MMD)", sets.matching, kNone},
-      {"nearest_reference", "to the nearest reference shape", sets.to_reference,
-       sets.within_reference},
-      {"floor", "two samplings of one shape", a.floor, b.floor},
-      {"near_duplicates", "near-duplicates, %", spread.samples.duplicates,
-       spread.reference.duplicates, 100.0},
-      {"mean_distance", "mean distance of two shapes", spread.samples.mean_distance,
-       spread.reference.mean_distance},
-      {"diversity", "diversity, by the reference's", spread.diversity, kNone},
-      {"vendi", "different shapes (Vendi score)", a.vendi, b.vendi},
-      {"roughness", "roughness (dihedral), degrees", a.roughness, b.roughness},
-  };
-  if (found.memorisation) {
-    const Memorisation& m = *found.memorisation;
-    rows.push_back({"nearest_training", "to the nearest training shape", m.samples, m.reference});
-    rows.push_back(
-        {"nearer_to_training", "nearer to it than held-out ones, %", m.nearer, kNone, 100.0});
-  }
-  return rows;
-}
-
-std::string Csv(const std::vector<Row>& rows) {
-  CsvWriter csv({"measure", "samples", "reference"});
-  for (const Row& row : rows) {
-    csv.Text(row.name).NumbersOrGaps({row.samples, row.reference});
-    csv.EndRow();
-  }
-  return csv.text();
-}
-
-void Print(const std::vector<Row>& rows) {
-  const auto cell = [](const Row& row, double value) -> std::string {
-    if (std::isnan(value)) return "-";
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", row.factor * value);
-    return text;
-  };
-  std::printf("%-36s %10s %10s\n", "", "samples", "reference");
-  for (const Row& row : rows) {
-    std::printf("%-36s %10s %10s\n", row.label, cell(row, row.samples).c_str(),
-                cell(row, row.reference).c_str());
-  }
-}
-
 void Warn(const SurfaceComparison& found) {
   const double ratio = found.samples.size / found.reference.size;
   if (ratio > 2.0 || ratio < 0.5) {
@@ -144,6 +75,9 @@ void Warn(const SurfaceComparison& found) {
 
 void Compare(const CompareFlags& flags) {
   if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refuses an unwritable target first
+  for (const std::string& read : {flags.samples, flags.reference, flags.training}) {
+    RequireApart({read, flags.out});
+  }
   const int threads = flags.options.threads;
   LoadedSet samples = Load(flags.samples, "samples", threads);
   LoadedSet reference = Load(flags.reference, "reference", threads);
@@ -165,9 +99,9 @@ void Compare(const CompareFlags& flags) {
   const SurfaceComparison found =
       CompareSurfaces(samples.meshes, reference.meshes, training.meshes, flags.options,
                       [&console](const std::string& phase) { return console.Phase(phase); });
-  const std::vector<Row> rows = Rows(found, samples, reference);
-  if (!flags.out.empty()) WriteFileAtomic(flags.out, Csv(rows));
-  Print(rows);
+  const ComparisonTable table(found, count, samples.left_out, reference.left_out);
+  if (!flags.out.empty()) WriteFileAtomic(flags.out, table.Csv());
+  std::fputs(table.Text().c_str(), stdout);
   Warn(found);
 }
 

@@ -1,16 +1,11 @@
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <map>
 #include <memory>
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
 #include "antigrasp/core/atomic_file.h"
-#include "antigrasp/core/csv_writer.h"
-#include "antigrasp/core/statistics.h"
-#include "antigrasp/datasets/import.h"
+#include "antigrasp/datasets/import_report.h"
 #include "antigrasp/datasets/prior_set.h"
 #include "antigrasp/mesh/mesh_format.h"
 
@@ -37,26 +32,6 @@ void Make(const MakeFlags& flags) {
               static_cast<unsigned long long>(flags.options.seed));
 }
 
-std::string ReportCsv(const std::vector<ImportedMesh>& reports) {
-  CsvWriter csv({"path", "status", "detail", "nodes"});
-  for (const ImportedMesh& report : reports) {
-    csv.Text(report.path).Text(report.status).Text(report.detail);
-    csv.NumberOrGap(report.nodes > 0.0 ? report.nodes : std::nan("")).EndRow();
-  }
-  return csv.text();
-}
-
-// "longest sides: 12.5 to 28 of 32 nodes, median 20".
-void PrintNodes(const std::vector<ImportedMesh>& reports, int resolution) {
-  std::vector<double> nodes;
-  for (const ImportedMesh& report : reports) {
-    if (report.status != "refused") nodes.push_back(report.nodes);
-  }
-  const auto [least, most] = std::minmax_element(nodes.begin(), nodes.end());
-  std::printf("longest sides: %.3g to %.3g of %d nodes, median %.3g\n", *least, *most, resolution,
-              DiscretePercentile(nodes, 50.0));
-}
-
 void Import(const ImportFlags& flags) {
   { const AtomicFile probe(flags.out); }
   RequireApart({flags.out, flags.report});
@@ -64,19 +39,8 @@ void Import(const ImportFlags& flags) {
   const std::vector<std::filesystem::path> inputs(flags.inputs.begin(), flags.inputs.end());
   const std::vector<ImportedMesh> reports =
       ImportMeshes(inputs, flags.out, flags.options, console.Phase("importing"));
-  std::map<std::string, int> counts;
-  for (const ImportedMesh& report : reports) {
-    ++counts[report.status];
-    if (report.status != "accepted") {
-      std::printf("%-8s %s: %s\n", report.status.c_str(), report.path.c_str(),
-                  report.detail.c_str());
-    }
-  }
-  if (!flags.report.empty()) WriteFileAtomic(flags.report, ReportCsv(reports));
-  std::printf("%s: %d shapes (%d accepted, %d repaired, %d refused)\n", flags.out.c_str(),
-              counts["accepted"] + counts["repaired"], counts["accepted"], counts["repaired"],
-              counts["refused"]);
-  PrintNodes(reports, flags.options.resolution);
+  if (!flags.report.empty()) WriteFileAtomic(flags.report, ImportCsv(reports));
+  std::fputs(ImportText(reports, flags.out, flags.options.resolution).c_str(), stdout);
 }
 
 void AddResolution(CLI::App* command, int* resolution) {

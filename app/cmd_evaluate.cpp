@@ -31,7 +31,8 @@ struct EvaluateFlags {
 
 // What is kept of the objects when they have been scored.
 struct Scores {
-  std::vector<ScoreRow> rows;
+  ScoreTable table;
+  std::string first;                      // the first one and its status
   std::vector<double> values, originals;  // graspabilities, NaN where there is none
   std::vector<std::string> notes;
   CandidateCount candidates;
@@ -60,7 +61,7 @@ std::string HalfWidth(const char* format, double half_width) {
 void PrintSummary(const Scores& scores) {
   const MeanInterval mean = MeanWithInterval(scores.values);
   std::fprintf(stderr, "%d objects scored, %d not: mean graspability %.5f%s\n", mean.count,
-               static_cast<int>(scores.rows.size()) - mean.count, mean.mean,
+               static_cast<int>(scores.values.size()) - mean.count, mean.mean,
                HalfWidth(" +-%.5f (95 %%)", mean.half_width).c_str());
   std::fprintf(stderr, "%s\n", scores.candidates.Text().c_str());
 }
@@ -93,9 +94,7 @@ void RequireAScore(const EvaluateFlags& flags, const Scores& scores) {
   for (const double value : scores.values) {
     if (!std::isnan(value)) return;
   }
-  const ScoreRow& first = scores.rows.front();
-  throw InputError("no object scored; " + first.object + ": " + first.status, flags.inputs.front(),
-                   "a closed solid");
+  throw InputError("no object scored; " + scores.first, flags.inputs.front(), "a closed solid");
 }
 
 // Object by object, each with its original's graspability where there are originals.
@@ -126,7 +125,8 @@ Scores ScoreAllOf(const ObjectSource& objects, const EvaluateFlags& flags,
       },
       [&](std::int64_t, const std::pair<ScoredObject, std::optional<double>>& item) {
         const auto& [scored, original] = item;
-        scores.rows.push_back(RowOf(scored, egad, original ? &*original : nullptr));
+        if (scores.first.empty()) scores.first = scored.name + ": " + scored.status;
+        scores.table.Add(RowOf(scored, egad, original ? &*original : nullptr));
         scores.values.push_back(scored.Value());
         if (original) scores.originals.push_back(*original);
         if (!scored.note.empty()) scores.notes.push_back(scored.name + ": " + scored.note);
@@ -151,7 +151,7 @@ void Evaluate(const EvaluateFlags& flags, const MetricFlags& metric_flags) {
   const ObjectSource objects(flags.inputs);
   objects.RequireNotRead({flags.out, MetricPath(flags), flags.grasps});
   const Scores scores = ScoreAllOf(objects, flags, metric_flags);
-  WriteScores(flags, metric, ScoresCsv(scores.rows));
+  WriteScores(flags, metric, scores.table.Csv());
   PrintSummary(scores);
   if (!flags.baseline.empty()) PrintPairedDifference(scores);
 }

@@ -63,6 +63,7 @@ Placed PlaceForPrint(InputObject object, const ExportFlags& flags, const PrintOp
 
 // Nothing is written that was there before the call as an object.
 void RequireOtherFiles(const ObjectSource& objects, const ExportFlags& flags) {
+  if (!std::filesystem::exists(flags.out)) return;
   std::vector<std::filesystem::path> written;
   for (std::int64_t i = 0; i < objects.size(); ++i) {
     written.push_back(std::filesystem::path(flags.out) / FileOf(objects.name(i), flags));
@@ -74,7 +75,7 @@ void Export(const ExportFlags& flags, const PrintOptions& options) {
   const ObjectSource objects(flags.inputs);
   RequireOtherFiles(objects, flags);
   StagedFolder staged(flags.out);
-  std::vector<PrintedObject> solids;
+  PrintTable solids(options);
   std::vector<std::string> refusals;
   ConsoleObserver console;
   StreamInOrder(
@@ -87,16 +88,17 @@ void Export(const ExportFlags& flags, const PrintOptions& options) {
           return;
         }
         WriteMesh(staged.path() / FileOf(item.printed.name, flags), item.mesh);
-        solids.push_back(std::move(item.printed));
+        solids.Add(std::move(item.printed));
       },
       console.Phase("checking"));
-  if (solids.empty()) throw InputError(refusals.front(), flags.inputs.front(), "a closed solid");
+  if (solids.size() == 0)
+    throw InputError(refusals.front(), flags.inputs.front(), "a closed solid");
   for (const std::string& refusal : refusals) spdlog::warn("not exported: {}", refusal);
   staged.Commit();
-  WriteFileAtomic(std::filesystem::path(flags.out) / "print.csv", PrintCsv(solids));
+  WriteFileAtomic(std::filesystem::path(flags.out) / "print.csv", solids.Csv());
   std::printf("%zu of %zu objects in %s, largest extent %g mm\n%s", solids.size(),
               solids.size() + refusals.size(), flags.out.c_str(), flags.size_mm,
-              PrintSummary(solids, options).c_str());
+              solids.Summary().c_str());
 }
 
 }  // namespace

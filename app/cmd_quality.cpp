@@ -5,7 +5,6 @@
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
 #include "antigrasp/core/atomic_file.h"
-#include "antigrasp/core/csv_writer.h"
 #include "antigrasp/quality/contact_table.h"
 
 namespace antigrasp {
@@ -38,53 +37,23 @@ std::vector<ContactRowQuality> EvaluateRows(const std::vector<ContactRow>& rows,
   return qualities;
 }
 
-std::string QualityCsv(const std::vector<ContactRow>& rows,
-                       const std::vector<ContactRowQuality>& qualities) {
-  CsvWriter csv({"id", "epsilon", "force_closure", "force_closure_signed", "wrench_resisted",
-                 "wrench_resistance"});
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const ContactRowQuality& quality = qualities[i];
-    csv.Text(rows[i].id).Number(quality.epsilon);
-    csv.Count(quality.force_closure).Count(quality.force_closure_signed);
-    if (quality.resistance) {
-      csv.Count(quality.resistance->resisted).Number(quality.resistance->quality);
-    } else {
-      csv.Text("").Text("");
-    }
-    csv.EndRow();
-  }
-  return csv.text();
-}
-
-void PrintSummary(const std::vector<ContactRowQuality>& qualities) {
-  int positive = 0, closed = 0, asked = 0, resisted = 0;
-  for (const ContactRowQuality& quality : qualities) {
-    positive += quality.epsilon > 0.0 ? 1 : 0;
-    closed += quality.force_closure_signed ? 1 : 0;
-    asked += quality.resistance ? 1 : 0;
-    resisted += quality.resistance && quality.resistance->resisted ? 1 : 0;
-  }
-  std::fprintf(stderr,
-               "%zu grasps: %d with epsilon > 0, %d in force closure, %d of %d wrenches resisted\n",
-               qualities.size(), positive, closed, resisted, asked);
-}
-
 void Quality(const QualityFlags& flags, const OptionFlags& contact_flags) {
   ContactTableOptions options;
   OptionTable table;
   Bind(&table, &options);
   contact_flags.Apply(&table);
   if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
+  RequireApart({flags.table, flags.out});
   const std::vector<ContactRow> rows = ReadContactTable(flags.table, options);
   const std::vector<ContactRowQuality> qualities =
       EvaluateRows(rows, options.wrench, flags.threads);
   if (flags.out.empty()) {
-    std::printf("%s", QualityCsv(rows, qualities).c_str());
+    std::printf("%s", ContactCsv(rows, qualities).c_str());
   } else {
-    WriteFileAtomic(flags.out, QualityCsv(rows, qualities));
+    WriteFileAtomic(flags.out, ContactCsv(rows, qualities));
     WriteFileAtomic(flags.out + ".quality.toml", table.Dump());
   }
-  PrintSummary(qualities);
+  std::fputs(ContactSummary(qualities).c_str(), stderr);
 }
 
 constexpr const char* kColumns =

@@ -1,7 +1,5 @@
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -10,11 +8,10 @@
 #include "antigrasp/app/flags.h"
 #include "antigrasp/app/object_notes.h"
 #include "antigrasp/core/atomic_file.h"
-#include "antigrasp/core/csv_writer.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
 #include "antigrasp/datasets/objects.h"
-#include "antigrasp/quality/trial.h"
+#include "antigrasp/quality/trial_table.h"
 
 namespace antigrasp {
 namespace {
@@ -29,13 +26,6 @@ struct TrialFlags {
   bool millimetres = false;
   std::uint64_t seed = 1;
   int threads = 0;
-};
-
-// The trials of all objects under one reading of the friction angle.
-struct Readings {
-  FrictionReading reading;
-  double friction;
-  std::vector<TrialResult> results;
 };
 
 OptionFlags TrialOptionFlags(CLI::App* command) {
@@ -60,8 +50,9 @@ std::vector<InputObject> LoadUsable(const TrialFlags& flags) {
   return objects;
 }
 
-std::vector<Readings> RunReadings(const TrialFlags& flags, const std::vector<InputObject>& objects,
-                                  MetricOptions metric, const TrialOptions& options) {
+std::vector<TrialReading> RunReadings(const TrialFlags& flags,
+                                      const std::vector<InputObject>& objects, MetricOptions metric,
+                                      const TrialOptions& options) {
   if (flags.millimetres) metric.object_min_extent = 0.0;
   std::vector<TriangleMesh> meshes;
   for (const InputObject& object : objects) {
@@ -69,7 +60,7 @@ std::vector<Readings> RunReadings(const TrialFlags& flags, const std::vector<Inp
         Transformed(object.mesh, flags.millimetres ? 1e-3 : 1.0, Eigen::Vector3d::Zero()));
   }
   ConsoleObserver console;
-  std::vector<Readings> all;
+  std::vector<TrialReading> all;
   const auto chosen = FindChoice<FrictionReading>(flags.reading);
   for (const auto [reading, name] : ChoicesOf(FrictionReading{})) {
     if (chosen && chosen != reading) continue;
@@ -81,27 +72,6 @@ std::vector<Readings> RunReadings(const TrialFlags& flags, const std::vector<Inp
   return all;
 }
 
-double ShareOf(int count, int total) { return static_cast<double>(count) / total; }
-
-std::string TrialCsv(const std::vector<InputObject>& objects, const std::vector<Readings>& all) {
-  CsvWriter csv({"object", "reading", "friction", "poses", "grasps", "found", "holds_planned",
-                 "confidence", "force_closure", "force_closure_low", "force_closure_high", "held",
-                 "held_low", "held_high"});
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    for (const Readings& readings : all) {
-      const TrialResult& result = readings.results[i];
-      csv.Text(objects[i].name).Text(ChoiceName(readings.reading)).Number(readings.friction);
-      csv.Count(result.poses).Count(result.grasps).Count(result.found).Count(result.holds_planned);
-      csv.Number(result.confidence);
-      for (const Share* share : {&result.force_closure, &result.held}) {
-        csv.Numbers({share->value, share->interval.low, share->interval.high});
-      }
-      csv.EndRow();
-    }
-  }
-  return csv.text();
-}
-
 std::string Constants(const TrialFlags& flags) {
   return "seed = " + std::to_string(flags.seed) +
          "\nfriction_angle = " + FormatDouble(flags.friction_angle) + "\nreading = \"" +
@@ -109,37 +79,6 @@ std::string Constants(const TrialFlags& flags) {
          "\n# Not used below: metric.friction, which the friction angle sets, and "
          "metric.percentile" +
          (flags.millimetres ? ", metric.object_min_extent" : "") + ".\n\n";
-}
-
-std::string ShareText(const Share& share) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%5.1f [%5.1f, %5.1f]", 100.0 * share.value,
-                100.0 * share.interval.low, 100.0 * share.interval.high);
-  return std::isnan(share.value) ? "" : text;
-}
-
-void PrintTable(const std::vector<InputObject>& objects, const std::vector<Readings>& all,
-                const TrialOptions& options) {
-  int width = 6;
-  for (const InputObject& object : objects) {
-    width = std::max(width, static_cast<int>(object.name.size()));
-  }
-  char limit[32];
-  std::snprintf(limit, sizeof limit, "epsilon > %g", options.min_epsilon);
-  std::printf("%% of the grasps     %*s planned             executed under noise [95 %%]\n",
-              width + 3, "");
-  std::printf("%-*s  reading     friction  found  %s  force closure         %s\n", width, "object",
-              limit, limit);
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    for (const Readings& readings : all) {
-      const TrialResult& result = readings.results[i];
-      std::printf("%-*s  %-10s  %8.4f  %5.1f  %15.1f  %s  %s\n", width, objects[i].name.c_str(),
-                  ChoiceName(readings.reading).c_str(), readings.friction,
-                  100.0 * ShareOf(result.found, result.grasps),
-                  100.0 * ShareOf(result.holds_planned, result.grasps),
-                  ShareText(result.force_closure).c_str(), ShareText(result.held).c_str());
-    }
-  }
 }
 
 void Trial(const TrialFlags& flags, const OptionFlags& trial_flags,
@@ -151,13 +90,15 @@ void Trial(const TrialFlags& flags, const OptionFlags& trial_flags,
   MetricOptions metric = metric_flags.Resolve();
   if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
   const std::vector<InputObject> objects = LoadUsable(flags);
-  const std::vector<Readings> all = RunReadings(flags, objects, metric, options);
+  const std::vector<TrialReading> all = RunReadings(flags, objects, metric, options);
+  std::vector<std::string> names;
+  for (const InputObject& object : objects) names.push_back(object.name);
   if (!flags.out.empty()) {
-    WriteFileAtomic(flags.out, TrialCsv(objects, all));
+    WriteFileAtomic(flags.out, TrialCsv(names, all));
     Bind(&table, &metric);
     WriteFileAtomic(flags.out + ".trial.toml", Constants(flags) + table.Dump());
   }
-  PrintTable(objects, all, options);
+  std::fputs(TrialText(names, all, options.min_epsilon).c_str(), stdout);
 }
 
 constexpr const char* kAbout =

@@ -2,14 +2,13 @@
 
 #include <spdlog/spdlog.h>
 
-#include <cmath>
 #include <cstdio>
-#include <numeric>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/place.h"
+#include "antigrasp/perturb/perturb_row.h"
 #include "antigrasp/perturb/perturb_summary.h"
 #include "antigrasp/render/contact_sheet.h"
 
@@ -52,41 +51,14 @@ std::string PerturbedObject::Status() const {
 }
 
 PerturbRow RowOf(const PerturbedObject& item) {
-  const ScoredPerturbation& s = item.scored;
-  const auto count = [](std::int64_t n) { return n < 0 ? std::nan("") : static_cast<double>(n); };
-  PerturbRow row{item.object.name, item.Status()};
+  PerturbRow row =
+      RowOf(item.object.name, item.Status(), item.scored, item.object.ok() && !item.interrupted);
   row.faces_before = static_cast<double>(item.object.mesh.faces.size());
-  row.faces_after = static_cast<double>(s.result.mesh.faces.size());
-  row.pairs_before = count(s.pairs_before);
-  row.pairs_after = count(s.pairs_after);
-  if (item.object.ok() && !item.interrupted) {
-    row.graspability_before = s.graspability_before;
-    row.graspability_after = s.graspability_after;
-    row.difference = s.graspability_after - s.graspability_before;
-    row.normal_max_deg = s.normals.largest;
-    row.normal_mean_deg = s.normals.mean;
-    row.hausdorff_pct = s.change.hausdorff;
-    row.chamfer_pct = s.change.chamfer;
-    row.volume_change_pct = s.change.volume_change;
-    row.center_of_mass_pct = s.change.center_of_mass;
-  }
-  const auto& refused = s.result.refused;
-  row.iterations = count(s.result.iterations);
-  row.moved = count(s.result.moved);
-  row.no_gain = count(s.result.no_gain);
-  row.refused = count(std::accumulate(refused.begin(), refused.end(), std::int64_t{0}));
   return row;
 }
 
 PerturbHistory HistoryOf(const PerturbedObject& item) {
-  PerturbHistory history{item.object.name, {}, {}, {}};
-  for (const PairCount& count : item.scored.result.history) {
-    history.iteration.push_back(static_cast<double>(count.iteration));
-    history.pairs.push_back(static_cast<double>(count.pairs));
-    history.pairs_below_cone.push_back(count.below < 0 ? std::nan("")
-                                                       : static_cast<double>(count.below));
-  }
-  return history;
+  return HistoryOf(item.object.name, item.scored.result.history);
 }
 
 std::string PerturbSummary(const std::vector<PerturbedObject>& objects) {

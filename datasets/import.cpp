@@ -53,10 +53,12 @@ std::vector<Source> FindSources(const std::vector<fs::path>& inputs) {
     }
     if (fs::is_directory(status)) {
       for (const fs::path& file : MeshFilesIn(input)) {
-        sources.push_back({file, {file.lexically_relative(input).generic_string(), input}});
+        sources.push_back(
+            {file, {file.lexically_relative(input).generic_string(), input.string()}});
       }
     } else {
-      sources.push_back({input, {input.filename().string(), fs::absolute(input).parent_path()}});
+      sources.push_back(
+          {input, {input.filename().string(), fs::absolute(input).parent_path().string()}});
     }
   }
   std::stable_sort(sources.begin(), sources.end(),

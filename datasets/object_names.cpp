@@ -1,6 +1,7 @@
 #include "antigrasp/datasets/object_names.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <utility>
@@ -77,6 +78,15 @@ Places PlacesOf(const std::vector<Candidate>& candidates) {
   return places;
 }
 
+// Whether the names are good as they are; nearly always, and with little memory.
+bool AreApart(const std::vector<ObjectOrigin>& objects) {
+  std::vector<std::string> files;
+  for (const ObjectOrigin& object : objects) files.push_back(FileNameOf(object.name));
+  std::sort(files.begin(), files.end());
+  return files.empty() ||
+         (!files.front().empty() && std::adjacent_find(files.begin(), files.end()) == files.end());
+}
+
 }  // namespace
 
 std::string FileNameOf(const std::string& object_name) {
@@ -86,6 +96,12 @@ std::string FileNameOf(const std::string& object_name) {
 }
 
 std::vector<std::string> DistinctNames(const std::vector<ObjectOrigin>& objects) {
+  std::vector<std::string> names(objects.size());
+  if (AreApart(objects)) {
+    std::transform(objects.begin(), objects.end(), names.begin(),
+                   [](const ObjectOrigin& object) { return object.name; });
+    return names;
+  }
   std::vector<Candidate> candidates(objects.begin(), objects.end());
   Places places;
   for (bool longer = true; longer;) {
@@ -96,7 +112,6 @@ std::vector<std::string> DistinctNames(const std::vector<ObjectOrigin>& objects)
       for (const std::size_t i : sharers) longer |= candidates[i].Longer();
     }
   }
-  std::vector<std::string> names(objects.size());
   std::set<std::string> taken;
   std::vector<std::size_t> same;  // as another one to the last folder
   for (const auto& [file, sharers] : places) {

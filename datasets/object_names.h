@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,7 +9,7 @@ namespace antigrasp {
 // object in an SDF file: the file's path without its extension).
 struct ObjectOrigin {
   std::string name;  // "mug.stl", "a/mug.stl", "cylinders-000017"
-  std::filesystem::path folder;
+  std::string folder;
 };
 
 // A file name for an object's name: path separators become underscores, an extension is dropped.

@@ -1,7 +1,6 @@
 #include "antigrasp/datasets/objects.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -64,60 +63,53 @@ InputObject FromFileInFolder(const fs::path& file) {
   }
 }
 
-// One object before it has a name of its own.
-struct Found {
-  ObjectOrigin origin;
-  fs::path file;
-  std::function<InputObject()> load;
-};
-
-std::vector<Found> FindIn(const std::string& input) {
-  const fs::path path(input);
-  std::vector<Found> found;
-  if (fs::is_directory(path)) {
-    for (const fs::path& file : MeshFilesIn(path)) {
-      found.push_back({{file.lexically_relative(path).string(), path}, file, [file] {
-                         return FromFileInFolder(file);
-                       }});
-    }
-  } else if (!fs::exists(path)) {
-    throw InputError("no such file or folder", input, Expected());
-  } else if (IsShapeSet(path)) {
-    const auto set = std::make_shared<ShapeSetReader>(path);
-    const fs::path folder = fs::path(path).replace_extension();
-    for (std::string& name : set->Names()) {
-      const int grid = static_cast<int>(found.size());
-      found.push_back(
-          {{std::move(name), folder}, path, [set, grid] { return FromGrid(set->Grid(grid)); }});
-    }
-  } else if (IsMeshFile(path)) {
-    found.push_back({{path.filename().string(), fs::absolute(path).parent_path()}, path, [path] {
-                       return FromFile(path);
-                     }});
-  } else {
-    ReadShapeSetInfo(path);  // says what keeps it from being an SDF file
-    throw InputError("unknown kind of file", input, Expected());
-  }
-  return found;
-}
-
 }  // namespace
 
+struct ObjectSource::Input {
+  std::string path;
+  bool is_folder;
+  std::unique_ptr<const ShapeSetReader> set;  // of an SDF file
+};
+
+// Little, because there may be very many.
 struct ObjectSource::Source {
   std::string name;
   std::size_t input;
-  fs::path file;
-  std::function<InputObject()> load;
+  int grid;          // of an SDF file
+  std::string file;  // of a mesh
 };
+
+void ObjectSource::Open(const std::string& path, std::vector<ObjectOrigin>* origins) {
+  const std::size_t number = inputs_.size();
+  inputs_.push_back({path, fs::is_directory(path), nullptr});
+  if (inputs_.back().is_folder) {
+    for (const fs::path& file : MeshFilesIn(path)) {
+      sources_.push_back({"", number, 0, file.string()});
+      origins->push_back({file.lexically_relative(path).string(), path});
+    }
+  } else if (!fs::exists(path)) {
+    throw InputError("no such file or folder", path, Expected());
+  } else if (IsShapeSet(path)) {
+    inputs_.back().set = std::make_unique<ShapeSetReader>(path);
+    const std::string folder = fs::path(path).replace_extension().string();
+    int grid = 0;
+    for (std::string& name : inputs_.back().set->Names()) {
+      sources_.push_back({"", number, grid++, ""});
+      origins->push_back({std::move(name), folder});
+    }
+  } else if (IsMeshFile(path)) {
+    sources_.push_back({"", number, 0, path});
+    origins->push_back(
+        {fs::path(path).filename().string(), fs::absolute(path).parent_path().string()});
+  } else {
+    ReadShapeSetInfo(path);  // says what keeps it from being an SDF file
+    throw InputError("unknown kind of file", path, Expected());
+  }
+}
 
 ObjectSource::ObjectSource(const std::vector<std::string>& inputs) {
   std::vector<ObjectOrigin> origins;
-  for (std::size_t input = 0; input < inputs.size(); ++input) {
-    for (Found& found : FindIn(inputs[input])) {
-      origins.push_back(std::move(found.origin));
-      sources_.push_back({"", input, std::move(found.file), std::move(found.load)});
-    }
-  }
+  for (const std::string& input : inputs) Open(input, &origins);
   if (sources_.empty()) throw InputError("no object", inputs.front(), Expected());
   std::vector<std::string> names = DistinctNames(origins);
   for (std::size_t i = 0; i < names.size(); ++i) sources_[i].name = std::move(names[i]);
@@ -136,14 +128,21 @@ std::size_t ObjectSource::input(std::int64_t i) const {
 }
 
 InputObject ObjectSource::Load(std::int64_t i) const {
-  InputObject object = sources_[static_cast<std::size_t>(i)].load();
-  object.name = name(i);
+  const Source& source = sources_[static_cast<std::size_t>(i)];
+  const Input& from = inputs_[source.input];
+  InputObject object = from.set         ? FromGrid(from.set->Grid(source.grid))
+                       : from.is_folder ? FromFileInFolder(source.file)
+                                        : FromFile(source.file);
+  object.name = source.name;
   return object;
 }
 
 void ObjectSource::RequireNotRead(const std::vector<fs::path>& written) const {
   std::set<fs::path> read;
-  for (const Source& source : sources_) read.insert(fs::weakly_canonical(source.file));
+  for (const Input& input : inputs_) read.insert(fs::weakly_canonical(input.path));
+  for (const Source& source : sources_) {
+    if (inputs_[source.input].is_folder) read.insert(fs::weakly_canonical(source.file));
+  }
   for (const fs::path& path : written) {
     if (path.empty() || !read.contains(fs::weakly_canonical(path))) continue;
     throw InputError("would be written over an object's file", path.string(), "another --out");

@@ -39,7 +39,11 @@ class ObjectSource {
   void RequireNotRead(const std::vector<std::filesystem::path>& written) const;
 
  private:
-  struct Source;
+  struct Input;   // an SDF file, a folder or a mesh file
+  struct Source;  // an object of one
+  void Open(const std::string& path, std::vector<ObjectOrigin>* origins);
+
+  std::vector<Input> inputs_;
   std::vector<Source> sources_;
 };
 

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-
-#include "antigrasp/core/csv_writer.h"
+#include <utility>
 
 namespace antigrasp {
 namespace {
@@ -52,66 +51,65 @@ std::string Table(const std::vector<PrintedObject>& objects) {
 
 }  // namespace
 
-std::string PrintCsv(const std::vector<PrintedObject>& objects) {
-  CsvWriter csv({"object",
-                 "watertight",
-                 "size_x_mm",
-                 "size_y_mm",
-                 "size_z_mm",
-                 "wall_mm",
-                 "thin_share",
-                 "print_x_mm",
-                 "print_y_mm",
-                 "print_z_mm",
-                 "overhang_share",
-                 "contact_mm2",
-                 "pose_probability",
-                 "r00",
-                 "r01",
-                 "r02",
-                 "r10",
-                 "r11",
-                 "r12",
-                 "r20",
-                 "r21",
-                 "r22",
-                 "notes"});
-  const auto add = [&](const Eigen::Vector3d& v) { csv.Numbers({v.x(), v.y(), v.z()}); };
-  for (const PrintedObject& item : objects) {
-    const PrintCheck& check = item.check;
-    csv.Text(item.name).Count(check.watertight);
-    add(check.size_mm);
-    csv.NumberOrGap(check.wall_mm.value_or(std::nan("")));
-    csv.Number(check.thin_share);
-    add(check.print_size_mm);
-    csv.Numbers({check.overhang_share, check.contact_mm2, check.pose_probability});
-    for (int row = 0; row < 3; ++row) add(check.table_from_object.row(row));
-    std::string notes;
-    for (const std::string& note : check.notes) notes += (notes.empty() ? "" : " ") + note;
-    csv.Text(notes).EndRow();
-  }
-  return csv.text();
+PrintTable::PrintTable(const PrintOptions& options)
+    : options_(options),
+      csv_({"object",
+            "watertight",
+            "size_x_mm",
+            "size_y_mm",
+            "size_z_mm",
+            "wall_mm",
+            "thin_share",
+            "print_x_mm",
+            "print_y_mm",
+            "print_z_mm",
+            "overhang_share",
+            "contact_mm2",
+            "pose_probability",
+            "r00",
+            "r01",
+            "r02",
+            "r10",
+            "r11",
+            "r12",
+            "r20",
+            "r21",
+            "r22",
+            "notes"}),
+      thinnest_(std::numeric_limits<double>::infinity()) {}
+
+void PrintTable::Add(PrintedObject object) {
+  const PrintCheck& check = object.check;
+  const auto add = [&](const Eigen::Vector3d& v) { csv_.Numbers({v.x(), v.y(), v.z()}); };
+  csv_.Text(object.name).Count(check.watertight);
+  add(check.size_mm);
+  csv_.NumberOrGap(check.wall_mm.value_or(std::nan("")));
+  csv_.Number(check.thin_share);
+  add(check.print_size_mm);
+  csv_.Numbers({check.overhang_share, check.contact_mm2, check.pose_probability});
+  for (int row = 0; row < 3; ++row) add(check.table_from_object.row(row));
+  std::string notes;
+  for (const std::string& note : check.notes) notes += (notes.empty() ? "" : " ") + note;
+  csv_.Text(notes).EndRow();
+
+  const double wall = check.wall_mm.value_or(std::numeric_limits<double>::infinity());
+  thinnest_ = std::min(thinnest_, wall);
+  thin_ += check.thin ? 1 : 0;
+  largest_overhang_ = std::max(largest_overhang_, check.overhang_share);
+  hanging_ += check.overhang_share > options_.max_overhang ? 1 : 0;
+  ++size_;
+  if (first_.size() <= kMostLines) first_.push_back(std::move(object));
 }
 
-std::string PrintSummary(const std::vector<PrintedObject>& objects, const PrintOptions& options) {
-  std::size_t thin = 0, hanging = 0;
-  double thinnest = std::numeric_limits<double>::infinity(), largest = 0.0;
-  for (const PrintedObject& item : objects) {
-    const double wall = item.check.wall_mm.value_or(std::numeric_limits<double>::infinity());
-    thinnest = std::min(thinnest, wall);
-    thin += item.check.thin ? 1 : 0;
-    largest = std::max(largest, item.check.overhang_share);
-    hanging += item.check.overhang_share > options.max_overhang ? 1 : 0;
-  }
+std::string PrintTable::Summary() const {
   char text[300];
   std::snprintf(
       text, sizeof text,
       "print check (print.csv): %zu watertight; %zu with a wall below %g mm, the thinnest "
       "%s mm; %zu with more than %.0f %% overhang, the most %.0f %%\n",
-      objects.size(), thin, options.min_wall_mm,
-      std::isinf(thinnest) ? "-" : WallText(thinnest).c_str(), hanging,
-      100.0 * options.max_overhang, 100.0 * largest);
-  return (objects.size() <= kMostLines ? Table(objects) : std::string()) + text;
+      size_, thin_, options_.min_wall_mm, std::isinf(thinnest_) ? "-" : WallText(thinnest_).c_str(),
+      hanging_, 100.0 * options_.max_overhang, 100.0 * largest_overhang_);
+  return (size_ <= kMostLines ? Table(first_) : std::string()) + text;
 }
 
 }  // namespace antigrasp

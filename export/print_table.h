@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "antigrasp/core/csv_writer.h"
 #include "antigrasp/export/print_check.h"
 
 namespace antigrasp {
@@ -12,10 +13,23 @@ struct PrintedObject {
   PrintCheck check;
 };
 
-// Columns as docs/formats.md says, one row per object.
-std::string PrintCsv(const std::vector<PrintedObject>& objects);
+// What the printer will find, object by object.
+class PrintTable {
+ public:
+  explicit PrintTable(const PrintOptions& options);
+  void Add(PrintedObject object);
+  std::size_t size() const { return size_; }
+  // print.csv, columns as docs/formats.md says, one row per object.
+  const std::string& Csv() const { return csv_.text(); }
+  // One line an object for a few objects, and totals.
+  std::string Summary() const;
 
-// What the printer will find: one line an object for a few objects, and totals.
-std::string PrintSummary(const std::vector<PrintedObject>& objects, const PrintOptions& options);
+ private:
+  PrintOptions options_;
+  CsvWriter csv_;
+  std::vector<PrintedObject> first_;  // as many as get a line, and one more
+  std::size_t size_ = 0, thin_ = 0, hanging_ = 0;
+  double thinnest_, largest_overhang_ = 0.0;
+};
 
 }  // namespace antigrasp

@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "antigrasp/core/csv_reader.h"
+#include "antigrasp/core/csv_writer.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
 #include "antigrasp/quality/force_closure.h"
@@ -202,6 +204,40 @@ void Bind(OptionTable* table, ContactTableOptions* options) {
   table->Add("contact.torsion", &o.torsion,
              "torsion of a contact: none, dexnet (pi r^2 mu) or uniform_pressure (2/3 r mu)");
   Bind(table, &o.wrench);
+}
+
+std::string ContactCsv(const std::vector<ContactRow>& rows,
+                       const std::vector<ContactRowQuality>& qualities) {
+  CsvWriter csv({"id", "epsilon", "force_closure", "force_closure_signed", "wrench_resisted",
+                 "wrench_resistance"});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ContactRowQuality& quality = qualities[i];
+    csv.Text(rows[i].id).Number(quality.epsilon);
+    csv.Count(quality.force_closure).Count(quality.force_closure_signed);
+    if (quality.resistance) {
+      csv.Count(quality.resistance->resisted).Number(quality.resistance->quality);
+    } else {
+      csv.Text("").Text("");
+    }
+    csv.EndRow();
+  }
+  return csv.text();
+}
+
+std::string ContactSummary(const std::vector<ContactRowQuality>& qualities) {
+  int positive = 0, closed = 0, asked = 0, resisted = 0;
+  for (const ContactRowQuality& quality : qualities) {
+    positive += quality.epsilon > 0.0 ? 1 : 0;
+    closed += quality.force_closure_signed ? 1 : 0;
+    asked += quality.resistance ? 1 : 0;
+    resisted += quality.resistance && quality.resistance->resisted ? 1 : 0;
+  }
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "%zu grasps: %d with epsilon > 0, %d in force closure, %d of %d wrenches resisted\n",
+      qualities.size(), positive, closed, resisted, asked);
+  return text;
 }
 
 }  // namespace antigrasp

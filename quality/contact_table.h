@@ -53,6 +53,12 @@ struct ContactRowQuality {
 // The row's force limit counts, not the one of the options.
 ContactRowQuality EvaluateContacts(const ContactRow& row, const WrenchResistanceOptions& options);
 
+// One row a grasp: what `quality` writes of it.
+std::string ContactCsv(const std::vector<ContactRow>& rows,
+                       const std::vector<ContactRowQuality>& qualities);
+// "2 grasps: 2 with epsilon > 0, 2 in force closure, 1 of 2 wrenches resisted", one line.
+std::string ContactSummary(const std::vector<ContactRowQuality>& qualities);
+
 void Bind(OptionTable* table, ContactTableOptions* options);  // keys "contact.*", "wrench.*"
 
 }  // namespace antigrasp

@@ -3,9 +3,19 @@
 #include <cmath>
 
 #include "antigrasp/core/csv_reader.h"
-#include "antigrasp/core/csv_writer.h"
 
 namespace antigrasp {
+
+namespace {
+
+std::vector<std::string> Columns(const ScoreRow& row) {
+  std::vector<std::string> columns = {"object", "status",  "num_grasps", "graspability",
+                                      "ci_low", "ci_high", "mean",       "fraction_nonzero"};
+  for (const auto& [name, value] : row.extras) columns.push_back(name);
+  return columns;
+}
+
+}  // namespace
 
 std::optional<ScoreSummary> SummaryOf(const Graspability& score) {
   if (score.status == GraspabilityStatus::kNotEvaluable) return std::nullopt;
@@ -13,22 +23,22 @@ std::optional<ScoreSummary> SummaryOf(const Graspability& score) {
                       score.mean,  score.fraction_nonzero, static_cast<int>(score.grasps.size())};
 }
 
+void ScoreTable::Add(const ScoreRow& row) {
+  if (!csv_) csv_.emplace(Columns(row));
+  const double nan = std::nan("");
+  const ScoreSummary s = row.score.value_or(ScoreSummary{nan, nan, nan, nan, nan, 0});
+  csv_->Text(row.object).Text(row.status).Count(s.num_grasps);
+  csv_->NumbersOrGaps({s.graspability, s.ci_low, s.ci_high, s.mean, s.fraction_nonzero});
+  for (const auto& [name, value] : row.extras) csv_->NumberOrGap(value);
+  csv_->EndRow();
+}
+
+std::string ScoreTable::Csv() const { return csv_ ? csv_->text() : CsvWriter(Columns({})).text(); }
+
 std::string ScoresCsv(const std::vector<ScoreRow>& rows) {
-  std::vector<std::string> columns = {"object", "status",  "num_grasps", "graspability",
-                                      "ci_low", "ci_high", "mean",       "fraction_nonzero"};
-  if (!rows.empty()) {
-    for (const auto& [name, value] : rows.front().extras) columns.push_back(name);
-  }
-  CsvWriter csv(columns);
-  for (const ScoreRow& row : rows) {
-    const double nan = std::nan("");
-    const ScoreSummary s = row.score.value_or(ScoreSummary{nan, nan, nan, nan, nan, 0});
-    csv.Text(row.object).Text(row.status).Count(s.num_grasps);
-    csv.NumbersOrGaps({s.graspability, s.ci_low, s.ci_high, s.mean, s.fraction_nonzero});
-    for (const auto& [name, value] : row.extras) csv.NumberOrGap(value);
-    csv.EndRow();
-  }
-  return csv.text();
+  ScoreTable table;
+  for (const ScoreRow& row : rows) table.Add(row);
+  return table.Csv();
 }
 
 std::vector<ScoreRow> ReadScores(const std::filesystem::path& path) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "antigrasp/core/csv_writer.h"
 #include "antigrasp/quality/graspability.h"
 
 namespace antigrasp {
@@ -29,6 +30,15 @@ struct ScoreRow {
   std::vector<std::pair<std::string, double>> extras = {};
 };
 
+// scores.csv row by row, for sets of any size.
+class ScoreTable {
+ public:
+  void Add(const ScoreRow& row);
+  std::string Csv() const;
+
+ private:
+  std::optional<CsvWriter> csv_;  // with the columns of the first row
+};
 std::string ScoresCsv(const std::vector<ScoreRow>& rows);
 
 // InputError with file:line for a table that is cut short, lacks a column or holds no number where
