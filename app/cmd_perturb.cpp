@@ -9,11 +9,11 @@
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
 #include "antigrasp/app/object_notes.h"
-#include "antigrasp/app/perturb_output.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/perturb/antipodal_rotation.h"
 #include "antigrasp/perturb/exhaustive.h"
+#include "antigrasp/perturb/perturb_folder.h"
 #include "antigrasp/perturb/perturb_summary.h"
 #include "antigrasp/perturb/random_perturbation.h"
 #include "antigrasp/perturb/search.h"
@@ -87,7 +87,7 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
   const auto objects =
       PerturbAll(std::move(inputs), settings, flags.threads, console.Phase("perturbing"));
   const std::filesystem::path out(flags.out);
-  WritePerturbedMeshes(objects, out);
+  for (const std::string& note : WritePerturbedMeshes(objects, out)) spdlog::warn("{}", note);
   std::vector<PerturbRow> rows;
   std::vector<PerturbHistory> histories;
   for (const PerturbedObject& item : objects) {

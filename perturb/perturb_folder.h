@@ -31,10 +31,10 @@ std::string PerturbSummary(const std::vector<PerturbedObject>& objects);
 void CheckPerturbFolder(const std::vector<std::string>& inputs, const std::filesystem::path& out);
 
 // out/after/NAME.stl for every printable result, out/before/NAME.stl for every usable input.
-// NAME.ply and a warning where single precision would take more than 1e-5 of the object's size: it
-// lies some hundred times its size from the origin.
-void WritePerturbedMeshes(const std::vector<PerturbedObject>& objects,
-                          const std::filesystem::path& out);
+// NAME.ply where single precision would take more than 1e-5 of the object's size: it lies some
+// hundred times its size from the origin. Returns a line for each of these.
+std::vector<std::string> WritePerturbedMeshes(const std::vector<PerturbedObject>& objects,
+                                              const std::filesystem::path& out);
 
 // out/sheet.png: the first printable results, and above each what it was. Nothing without one.
 void WritePerturbedSheet(const std::vector<PerturbedObject>& objects,

@@ -1,6 +1,4 @@
-#include "antigrasp/app/perturb_output.h"
-
-#include <spdlog/spdlog.h>
+#include "antigrasp/perturb/perturb_folder.h"
 
 #include <cstdio>
 
@@ -25,15 +23,16 @@ constexpr double kMostLoss = 1e-5;
 
 bool IsOk(const PerturbedObject& item) { return item.Status() == "ok"; }
 
-// STL where it holds the object well enough.
-std::string ExtensionFor(const std::string& name, const TriangleMesh& mesh) {
+// Why STL does not hold the object well enough; "" when it does.
+std::string WhyNotStl(const TriangleMesh& mesh) {
   const double loss = SinglePrecisionLoss(mesh), size = Bounds(mesh).Extent().maxCoeff();
-  if (!(loss > kMostLoss * size)) return ".stl";
-  spdlog::warn(
-      "{}: written as PLY: so far from the origin STL would round coordinates by {:.1g} of their "
-      "unit, {:.1g} of the object's size",
-      name, loss, loss / size);
-  return ".ply";
+  if (!(loss > kMostLoss * size)) return "";
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "written as PLY: so far from the origin STL would round coordinates by %.1g of "
+                "their unit, %.1g of the object's size",
+                loss, loss / size);
+  return text;
 }
 
 // Also takes away what an earlier call left there in the other format.
@@ -98,17 +97,22 @@ void CheckPerturbFolder(const std::vector<std::string>& inputs, const fs::path& 
   const AtomicFile probe(parent / "perturb.csv");  // refuses what is not writable
 }
 
-void WritePerturbedMeshes(const std::vector<PerturbedObject>& objects, const fs::path& out) {
+std::vector<std::string> WritePerturbedMeshes(const std::vector<PerturbedObject>& objects,
+                                              const fs::path& out) {
+  std::vector<std::string> notes;
   MakeFolder(out / "before");
   MakeFolder(out / "after");
   for (const PerturbedObject& item : objects) {
     const TriangleMesh& before = item.scored.before;
     if (before.faces.empty()) continue;
     const std::string file = FileNameOf(item.object.name);
-    const std::string extension = ExtensionFor(item.object.name, before);
+    const std::string note = WhyNotStl(before);
+    if (!note.empty()) notes.push_back(item.object.name + ": " + note);
+    const std::string extension = note.empty() ? ".stl" : ".ply";
     WriteAs(extension, out / "before" / file, before);
     if (IsOk(item)) WriteAs(extension, out / "after" / file, item.scored.result.mesh);
   }
+  return notes;
 }
 
 void WritePerturbedSheet(const std::vector<PerturbedObject>& objects, const fs::path& out,

@@ -1,5 +1,5 @@
 // What perturb writes and says, of hand-made results with another number in every field.
-#include "antigrasp/app/perturb_output.h"
+#include "antigrasp/perturb/perturb_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ std::string Csv(const std::vector<PerturbedObject>& objects) {
   return PerturbCsv(rows);
 }
 
-TEST(PerturbOutput, EveryColumnHoldsWhatItsNameSays) {
+TEST(PerturbFolder, EveryColumnHoldsWhatItsNameSays) {
   EXPECT_EQ(RowOf(Csv({Changed()}), 0), (Row{{"object", "ball.stl"},
                                              {"status", "ok"},
                                              {"faces_before", "12"},
@@ -97,7 +97,7 @@ TEST(PerturbOutput, EveryColumnHoldsWhatItsNameSays) {
                                              {"refused", "9"}}));
 }
 
-TEST(PerturbOutput, NumbersThatDoNotExistAreEmptyFields) {
+TEST(PerturbFolder, NumbersThatDoNotExistAreEmptyFields) {
   PerturbedObject failed = Changed(), cut = Changed();
   failed.scored.result.failure = "after: open: 3 boundary edges";
   failed.scored.graspability_after = std::nan("");
@@ -117,7 +117,7 @@ TEST(PerturbOutput, NumbersThatDoNotExistAreEmptyFields) {
   EXPECT_EQ(row["graspability_before"] + row["normal_max_deg"], "");
 }
 
-TEST(PerturbOutput, AHistoryHasPairsAndThoseBelowTheConeByIteration) {
+TEST(PerturbFolder, AHistoryHasPairsAndThoseBelowTheConeByIteration) {
   EXPECT_EQ(PerturbHistoryCsv({HistoryOf(Changed())}),
             "object,iteration,pairs,pairs_below_cone\nball.stl,0,70,8\nball.stl,50,40,\n");
 }
@@ -125,7 +125,7 @@ TEST(PerturbOutput, AHistoryHasPairsAndThoseBelowTheConeByIteration) {
 // Means over the two that worked: 0.75 and 0.45 before, 0.25 and 0.41 after: 0.6 -> 0.33, 45 %
 // less. Residuals a - 0.55 b: -+0.1625, their deviation 0.1625 sqrt 2, of the mean 0.1625; by 0.6
 // and 1.96: 53.1 %.
-TEST(PerturbOutput, TheSummaryIsOfThoseThatWorkedAndCountsTheOthersByReason) {
+TEST(PerturbFolder, TheSummaryIsOfThoseThatWorkedAndCountsTheOthersByReason) {
   PerturbedObject other = Changed(), failed = Changed();
   other.scored.graspability_before = 0.45;
   other.scored.graspability_after = 0.41;
@@ -145,7 +145,7 @@ TEST(PerturbOutput, TheSummaryIsOfThoseThatWorkedAndCountsTheOthersByReason) {
   EXPECT_NE(PerturbSummary({Changed()}).find("kappa reduced by 66.7 %\n"), std::string::npos);
 }
 
-TEST(PerturbOutput, MeshesAndTheSheetShowBeforeAndAfterInTheirPlaces) {
+TEST(PerturbFolder, MeshesAndTheSheetShowBeforeAndAfterInTheirPlaces) {
   const shapes::TempFolder folder;
   PerturbedObject failed = Changed();
   failed.object.name = "failed.stl";
@@ -175,16 +175,18 @@ TEST(PerturbOutput, MeshesAndTheSheetShowBeforeAndAfterInTheirPlaces) {
   EXPECT_GT(dark(0), 3 * dark(sheet.width));
 }
 
-TEST(PerturbOutput, AnObjectThatStlWouldSpoilIsWrittenAsPlyWhereItLies) {
+TEST(PerturbFolder, AnObjectThatStlWouldSpoilIsWrittenAsPlyWhereItLies) {
   const shapes::TempFolder folder;
   const Eigen::Vector3d place(0.0, 900000.0, 0.0);
   PerturbedObject far = Changed();
-  WritePerturbedMeshes({far}, folder.path());  // near: STL
+  EXPECT_TRUE(WritePerturbedMeshes({far}, folder.path()).empty());  // near: STL
   const TriangleMesh before = Transformed(far.scored.before, 1.0, place);
   const TriangleMesh after = Transformed(far.scored.result.mesh, 1.0, place);
   far.scored.before = before;
   far.scored.result.mesh = after;
-  WritePerturbedMeshes({far}, folder.path());
+  const std::vector<std::string> notes = WritePerturbedMeshes({far}, folder.path());
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].find("ball.stl: written as PLY"), 0u) << notes[0];
   EXPECT_EQ(ReadMesh(folder / "before/ball.ply").vertices, before.vertices);
   EXPECT_EQ(ReadMesh(folder / "after/ball.ply").vertices, after.vertices);
   // What the first call left would be taken for the result of the second.
