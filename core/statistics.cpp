@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "antigrasp/core/check.h"
@@ -35,6 +36,14 @@ double BinomialTail(const std::vector<double>& log_factorials, std::size_t at_le
 }
 
 }  // namespace
+
+std::string MeanText(const MeanInterval& mean, int decimals) {
+  if (!std::isfinite(mean.mean)) return "-";
+  char text[64];
+  std::snprintf(text, sizeof text, std::isfinite(mean.half_width) ? "%.*f +-%.*f" : "%.*f",
+                decimals, mean.mean, decimals, mean.half_width);
+  return text;
+}
 
 double DiscretePercentile(std::vector<double> values, double percent) {
   AG_CHECK(!values.empty(), "the percentile of an empty sample is not defined");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 namespace antigrasp {
@@ -12,6 +13,8 @@ struct MeanInterval {
   int count = 0;
 };
 MeanInterval MeanWithInterval(const std::vector<double>& values);
+// "0.72 +-0.05" with so many decimals; without the interval, or "-", where there is none.
+std::string MeanText(const MeanInterval& mean, int decimals);
 
 // The smallest value v with at least percent/100 of the sample <= v... of a non-empty sample:
 // sorted[ceil(percent/100 * n) - 1], the discrete percentile of III-B.

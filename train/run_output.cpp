@@ -24,7 +24,7 @@ std::string KappaText(const StageStatistics& row, const std::vector<StageStatist
   const StageStatistics* prior = FindStage(rows, -1);
   if (row.stage < 0 || prior == nullptr) return "";
   const MeanInterval kappa = Ratio(row.graspability, prior->graspability);
-  return fmt::format(", {:.2f} +-{:.2f} of the prior set", kappa.mean, kappa.half_width);
+  return ", " + MeanText(kappa, 2) + " of the prior set";
 }
 
 }  // namespace
@@ -56,9 +56,8 @@ std::vector<std::pair<std::string, double>> StageScalars(const StageStatistics& 
 
 void LogStage(const StageStatistics& row, const std::vector<StageStatistics>& rows) {
   const std::string name = row.stage < 0 ? "prior set" : "episode " + std::to_string(row.stage);
-  spdlog::info("{}: {} objects, {} rejected, graspability {:.5f} +-{:.5f}{}", name, row.samples,
-               row.rejected(), row.graspability.mean, row.graspability.half_width,
-               KappaText(row, rows));
+  spdlog::info("{}: {} objects, {} rejected, graspability {}{}", name, row.samples, row.rejected(),
+               MeanText(row.graspability, 5), KappaText(row, rows));
 }
 
 void WarnIfCollapsed(const StageStatistics& row, const std::vector<StageStatistics>& rows) {

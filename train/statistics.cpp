@@ -11,9 +11,9 @@
 namespace antigrasp {
 namespace {
 
-std::string Printf(const char* format, double a, double b = 0) {
+std::string Printf(const char* format, double value) {
   char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, a, b);
+  std::snprintf(buffer, sizeof buffer, format, value);
   return buffer;
 }
 
@@ -59,7 +59,7 @@ std::vector<ComparedStage> Compare(const std::vector<StageStatistics>& rows,
 }
 
 std::string RatioText(const std::optional<MeanInterval>& ratio) {
-  return ratio ? Printf("%.2f +-%.2f", ratio->mean, ratio->half_width) : "-";
+  return ratio ? MeanText(*ratio, 2) : "-";
 }
 
 std::string Share(double value) { return std::isnan(value) ? "-" : Printf("%.0f %%", 100 * value); }
@@ -125,10 +125,9 @@ std::string StatisticsTable(const std::vector<StageStatistics>& rows,
     const StageStatistics& row = *stage.row;
     const std::string episode = row.stage < 0 ? "prior set" : std::to_string(row.stage);
     cells.push_back({(stage.control ? "control " : "") + episode, std::to_string(row.samples),
-                     RejectedText(row),
-                     Printf("%.5f +-%.5f", row.graspability.mean, row.graspability.half_width),
-                     RatioText(stage.by_prior), RatioText(stage.by_first),
-                     RatioText(stage.by_control), Share(row.coverage), Share(row.duplicates)});
+                     RejectedText(row), MeanText(row.graspability, 5), RatioText(stage.by_prior),
+                     RatioText(stage.by_first), RatioText(stage.by_control), Share(row.coverage),
+                     Share(row.duplicates)});
   }
   return Aligned(cells);
 }

@@ -130,7 +130,8 @@ TEST(RunCli, AFinerGridGoesThroughEveryCommand) {
   const std::string dir = folder.path().string() + "/";
   folder.Write("fine.toml", kSettings + "[model]\nresolution = 64\nwidth = 2\nlatent = 4\n");
   const Outcome run = Antigrasp(
-      "train " + dir + "fine.toml --threads 2 --set prior.count=4 --set cem.prior_iterations=4 " +
+      "train " + dir + "fine.toml --threads 2 --set prior.count=4 --set cem.prior_iterations=12 " +
+      "--set gan.learning_rate_g=2e-3 --set gan.learning_rate_d=2e-3 " +
       "--set cem.iterations=2 --set cem.episodes=1 --set cem.samples=4 --set cem.keep=1 " +
       "--set cem.control=false --set cem.compared=4 --set run.stl_count=1 --out " + dir + "run");
   ASSERT_EQ(run.code, 0) << run.text;
@@ -161,11 +162,12 @@ TEST(RunCli, ASecondProcessIsRefusedInALineAndAKilledOneBlocksNobody) {
   const std::string run = (folder / "run").string();
   folder.Write("run.toml", kSettings);
   // Killed when the other has had its answer: `$!` is the process that trains.
-  const Outcome outcome = Shell(
-      std::string(ANTIGRASP_BINARY) + " train " + (folder / "run.toml").string() +
-      " --set cem.prior_iterations=100000 --out " + run + " >/dev/null 2>&1 & first=$!; " +
-      "for i in $(seq 600); do [ -e " + run + "/checkpoint.pt ] && break; sleep 0.1; done; " +
-      ANTIGRASP_BINARY + " train --resume " + run + "; echo code $? of $first; kill -KILL $first");
+  const Outcome outcome =
+      Shell(std::string(ANTIGRASP_BINARY) + " train " + (folder / "run.toml").string() +
+            " --set cem.prior_iterations=100000 --out " + run + " >/dev/null 2>&1 & first=$!; " +
+            "for i in $(seq 600); do [ -e " + run + "/checkpoint.pt ] && break; sleep 0.1; done; " +
+            ANTIGRASP_BINARY + " train --resume " + run +
+            " 2>&1; echo code $? of $first; kill -KILL $first");
   const std::string pid = outcome.text.substr(outcome.text.rfind(' ') + 1);
   EXPECT_TRUE(
       outcome.text.starts_with("antigrasp: process " + pid.substr(0, pid.size() - 1) + " on "))

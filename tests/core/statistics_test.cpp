@@ -97,6 +97,12 @@ TEST(MeanWithInterval, MatchesTheFormulaOnAKnownSample) {
   EXPECT_NEAR(m.half_width, 1.96 * std::sqrt(5.0 / 3.0 / 4.0), 1e-14);
 }
 
+TEST(MeanText, LeavesOutAnIntervalThatDoesNotExist) {
+  EXPECT_EQ(MeanText({0.72, 0.0549, 9}, 2), "0.72 +-0.05");
+  EXPECT_EQ(MeanText(MeanWithInterval({0.25}), 3), "0.250");
+  EXPECT_EQ(MeanText(MeanWithInterval({}), 2), "-");
+}
+
 TEST(MeanWithInterval, LeavesOutWhatCouldNotBeEvaluated) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const MeanInterval m = MeanWithInterval({nan, 1.0, nan, 3.0});

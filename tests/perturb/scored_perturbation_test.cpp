@@ -190,7 +190,7 @@ TEST(PerturbAndScore, GivesOneResultForAnObjectWhereverItLies) {
       EXPECT_EQ(b.graspability_after, a.graspability_after);
       EXPECT_EQ(b.pairs_after, a.pairs_after);
       EXPECT_EQ(b.normals.mean, a.normals.mean);
-      EXPECT_EQ(b.similarity.hausdorff, a.similarity.hausdorff);
+      EXPECT_EQ(b.change.hausdorff, a.change.hausdorff);
       // And the meshes lie where the object lies.
       EXPECT_EQ(b.result.mesh.vertices, Transformed(a.result.mesh, 1.0, place).vertices);
       EXPECT_EQ(b.result.start.vertices, Transformed(a.result.start, 1.0, place).vertices);

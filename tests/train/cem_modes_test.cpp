@@ -11,6 +11,7 @@
 #include "antigrasp/train/cem_run.h"
 #include "antigrasp/train/elites.h"
 #include "antigrasp/train/sample_name.h"
+#include "antigrasp/train/stage.h"
 #include "tests/support/csv_rows.h"
 #include "tests/support/temp_folder.h"
 #include "tests/train/tiny_run.h"
