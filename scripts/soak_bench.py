@@ -121,11 +121,22 @@ def refuses_well(code, err, allowed=(0, 1, 2)):
             raise Fault(f"'{word}' in the message\n{err[-1500:]}")
 
 
+def timeless(path):
+    """The bytes of a file; of a table without the seconds that its rows took."""
+    data = path.read_bytes()
+    header = data.split(b"\n", 1)[0].split(b",")
+    if path.suffix != ".csv" or b"seconds" not in header:
+        return data
+    column = header.index(b"seconds")
+    rows = [line.split(b",") for line in data.split(b"\n")]
+    return b"\n".join(b",".join(cells[:column] + cells[column + 1:]) for cells in rows)
+
+
 def files_of(path):
-    """Relative name -> bytes, less what holds the time of day. A file's own name is ''."""
+    """Relative name -> bytes, less what holds a time. A file's own name is ''."""
     if path.is_file():
-        return {"": path.read_bytes()}
-    return {str(p.relative_to(path)): p.read_bytes() for p in sorted(path.rglob("*"))
+        return {"": timeless(path)}
+    return {str(p.relative_to(path)): timeless(p) for p in sorted(path.rglob("*"))
             if p.is_file() and not any(part in WITH_TIME for part in p.relative_to(path).parts)}
 
 

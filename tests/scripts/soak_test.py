@@ -33,6 +33,12 @@ class Checks(unittest.TestCase):
             with self.assertRaises(Fault, msg=name):
                 same_bytes(self.tree(name, **files), right)
 
+    def test_the_seconds_of_a_table_are_not_compared_and_its_other_columns_are(self):
+        right = self.tree("right", **{"a.csv": "object,seconds,score\ncube,0.5,1\n"})
+        same_bytes(self.tree("same", **{"a.csv": "object,seconds,score\ncube,0.7,1\n"}), right)
+        with self.assertRaises(Fault):
+            same_bytes(self.tree("other", **{"a.csv": "object,seconds,score\ncube,0.5,2\n"}), right)
+
     def test_the_time_of_day_is_not_compared(self):
         self.assertEqual(set(files_of(self.tree("run", **{"provenance.toml": "now", "scores.csv": "1"}))), {"scores.csv"})
 
