@@ -88,7 +88,7 @@ void AtomicFile::Commit() {
   if (std::rename(temp_.c_str(), target_.c_str()) != 0) FailIo("rename to", target_);
   committed_ = true;
   SyncToDisk(FolderOf(target_), O_RDONLY | O_DIRECTORY);  // the rename itself survives a power cut
-  lock_.reset();  // HDF5 locks what it reads
+  lock_.reset();                                          // HDF5 locks what it reads
 }
 
 void WriteFileAtomic(const fs::path& target, std::string_view bytes) {
