@@ -2,9 +2,11 @@
 
 #include <unistd.h>
 
+#include <regex>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
@@ -13,14 +15,40 @@ namespace antigrasp {
 
 namespace fs = std::filesystem;
 
-StagedFolder::StagedFolder(fs::path folder)
-    : folder_(std::move(folder)),
-      path_(folder_ / ("." + std::to_string(::getpid()) + ".tmp")),
-      made_(!fs::exists(folder_)) {
-  MakeFolder(folder_);
+namespace {
+
+constexpr const char* kLock = ".lock";
+
+// Nobody gives such a name to a folder of their own.
+bool IsStaged(const fs::path& path) {
+  static const std::regex pattern(R"(\.antigrasp-[0-9]+\.tmp)");
+  return std::regex_match(path.filename().string(), pattern);
+}
+
+void RemoveAbandoned(const fs::path& folder) {
+  std::vector<fs::path> abandoned;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.symlink_status().type() != fs::file_type::directory || !IsStaged(entry.path())) {
+      continue;
+    }
+    const FileLock lock(entry.path() / kLock, FileLock::Missing::kLeave);
+    if (lock.held()) abandoned.push_back(entry.path());
+  }
   std::error_code ignored;
-  fs::remove_all(path_, ignored);  // of a process of that number that was killed
+  for (const fs::path& path : abandoned) fs::remove_all(path, ignored);
+}
+
+}  // namespace
+
+StagedFolder::StagedFolder(fs::path folder)
+    : folder_(std::move(folder)), made_(!fs::exists(folder_)) {
+  MakeFolder(folder_);
+  RemoveAbandoned(folder_);
+  for (int number = ::getpid(); path_.empty() || fs::exists(path_); ++number) {
+    path_ = folder_ / (".antigrasp-" + std::to_string(number) + ".tmp");
+  }
   MakeFolder(path_);
+  lock_.emplace(path_ / kLock);
 }
 
 StagedFolder::~StagedFolder() {
@@ -31,6 +59,7 @@ StagedFolder::~StagedFolder() {
 
 void StagedFolder::Commit() {
   for (const auto& entry : fs::directory_iterator(path_)) {
+    if (entry.path().filename() == kLock) continue;
     std::error_code error;
     fs::rename(entry.path(), folder_ / entry.path().filename(), error);
     if (error) {

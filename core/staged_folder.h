@@ -1,11 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+
+#include "antigrasp/core/file_lock.h"
 
 namespace antigrasp {
 
 // Files that appear in a folder together: write them into path(), a hidden folder in it, and
-// Commit() moves them. Without it they are removed again and the folder is as it was.
+// Commit() moves them. Without it they are removed again and the folder is as it was. What a killed
+// process had staged there is removed by the next one, where there are locks.
 class StagedFolder {
  public:
   // Makes the folder (and parents) where it is missing: InputError as MakeFolder.
@@ -19,7 +23,8 @@ class StagedFolder {
 
  private:
   std::filesystem::path folder_, path_;
-  bool made_;  // the folder was not there before
+  bool made_;                     // the folder was not there before
+  std::optional<FileLock> lock_;  // on a file in path_, as long as it is used
 };
 
 }  // namespace antigrasp

@@ -155,7 +155,7 @@ def whole_or_absent(path, reference):
         return
     theirs = files_of(reference)
     for name, data in files_of(path).items():
-        if pathlib.PurePath(name).name.startswith("."):
+        if any(part.startswith(".") for part in pathlib.PurePath(name).parts):
             continue
         if name not in theirs or theirs[name] != data:
             raise Fault(f"{path / name}: half-written")

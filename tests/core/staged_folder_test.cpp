@@ -4,6 +4,7 @@
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
+#include "tests/support/child_process.h"
 #include "tests/support/temp_folder.h"
 
 namespace antigrasp {
@@ -42,6 +43,35 @@ TEST(StagedFolder, WithoutCommitTheFolderIsAsItWas) {
   }
   EXPECT_EQ(left, 0);
   EXPECT_THROW(StagedFolder(folder / "a"), InputError);
+}
+
+TEST(StagedFolder, WhatAKilledProcessStagedGoesWithTheNextAndWhatALivingOneStagesStays) {
+  const TempFolder folder;
+  folder.Write(".antigrasp-x.tmp/mine", "no number: not ours");
+  const auto stage = [&](const std::string& name) {
+    return [&folder, name] {
+      auto* const staged = new StagedFolder(folder.path());  // as a killed process leaves it
+      WriteFileAtomic(staged->path() / name, "half of the work");
+    };
+  };
+  const auto holds = [&](const std::string& name) {
+    for (const auto& entry : fs::directory_iterator(folder.path())) {
+      if (fs::exists(entry.path() / name)) return true;
+    }
+    return false;
+  };
+  shapes::ChildProcess killed(stage("killed")), living(stage("living"));
+  ASSERT_TRUE(killed.alive() && living.alive());
+  killed.Kill();
+  ASSERT_TRUE(holds("killed") && holds("living"));
+  StagedFolder next(folder.path());
+  EXPECT_FALSE(holds("killed"));
+  EXPECT_TRUE(holds("living"));
+  EXPECT_TRUE(holds("mine"));
+  WriteFileAtomic(next.path() / "a", "new");
+  next.Commit();
+  EXPECT_EQ(ReadFile(folder / "a"), "new");
+  EXPECT_FALSE(fs::exists(folder / ".lock"));
 }
 
 TEST(StagedFolder, AnObstacleInTheWayIsNamed) {
