@@ -76,7 +76,7 @@ void Warn(const SurfaceComparison& found) {
 void Compare(const CompareFlags& flags) {
   if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refuses an unwritable target first
   for (const std::string& read : {flags.samples, flags.reference, flags.training}) {
-    RequireApart({read, flags.out});
+    if (!read.empty()) ObjectSource({read}).RequireNotRead({flags.out});
   }
   const int threads = flags.options.threads;
   LoadedSet samples = Load(flags.samples, "samples", threads);

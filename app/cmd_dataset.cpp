@@ -6,6 +6,7 @@
 #include "antigrasp/app/flags.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/datasets/import_report.h"
+#include "antigrasp/datasets/objects.h"
 #include "antigrasp/datasets/prior_set.h"
 #include "antigrasp/mesh/mesh_format.h"
 
@@ -33,8 +34,11 @@ void Make(const MakeFlags& flags) {
 }
 
 void Import(const ImportFlags& flags) {
-  { const AtomicFile probe(flags.out); }
+  for (const std::string& out : {flags.out, flags.report}) {
+    if (!out.empty()) const AtomicFile probe(out);  // refuses an unwritable target before the work
+  }
   RequireApart({flags.out, flags.report});
+  if (!flags.report.empty()) ObjectSource(flags.inputs).RequireNotRead({flags.report});
   ConsoleObserver console;
   const std::vector<std::filesystem::path> inputs(flags.inputs.begin(), flags.inputs.end());
   const std::vector<ImportedMesh> reports =
@@ -75,20 +79,19 @@ void AddDatasetCommand(CLI::App* app) {
   make->callback([make_flags] { Make(*make_flags); });
 
   const auto import_flags = std::make_shared<ImportFlags>();
-  CLI::App* import = dataset->add_subcommand(
+  CLI::App* imported = dataset->add_subcommand(
       "import", "Turn meshes (" + Alternatives(ReadableExtensions(), ".") + ") into SDF grids");
-  import->add_option("MESH", import_flags->inputs, "mesh files or folders")->required();
-  import->add_option("--out", import_flags->out, "SDF file to write (HDF5)")->required();
-  import->add_option("--report", import_flags->report, "CSV with one row per mesh");
-  AddChoice(import, "--scale", &import_flags->options.scale,
+  imported->add_option("MESH", import_flags->inputs, "mesh files or folders")->required();
+  imported->add_option("--out", import_flags->out, "SDF file to write (HDF5)")->required();
+  imported->add_option("--report", import_flags->report, "CSV with one row per mesh");
+  AddChoice(imported, "--scale", &import_flags->options.scale,
             "set: one factor for all, which leaves out what is far larger than the others; each: "
             "every object as large as the grid allows");
-  AddResolution(import, &import_flags->options.resolution);
-  import->add_option("--threads", import_flags->options.threads, "threads; 0 = all")
+  AddResolution(imported, &import_flags->options.resolution);
+  imported->add_option("--threads", import_flags->options.threads, "threads; 0 = all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  import->callback([import_flags] { Import(*import_flags);
-});
-}  // namespace antigrasp
+  imported->callback([import_flags] { Import(*import_flags); });
+}
 
 }  // namespace antigrasp

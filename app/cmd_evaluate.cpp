@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -150,6 +149,9 @@ void Evaluate(const EvaluateFlags& flags, const MetricFlags& metric_flags) {
   RequireApart({flags.out, MetricPath(flags), flags.grasps});
   const ObjectSource objects(flags.inputs);
   objects.RequireNotRead({flags.out, MetricPath(flags), flags.grasps});
+  if (!flags.baseline.empty()) {
+    ObjectSource(flags.baseline).RequireNotRead({flags.out, MetricPath(flags), flags.grasps});
+  }
   const Scores scores = ScoreAllOf(objects, flags, metric_flags);
   WriteScores(flags, metric, scores.table.Csv());
   PrintSummary(scores);
@@ -166,14 +168,11 @@ void AddEvaluateCommand(CLI::App* app) {
                       "scores (CSV); the constants go to the same name plus .metric.toml. "
                       "Without it the scores go to standard output");
   CLI::Option* grasps = command->add_option("--grasps", flags->grasps, "every sampled grasp (CSV)");
-  command
-      ->add_option("--frame", flags->frame,
-                   "of --grasps: metres, as the metric rescales the object, or mesh, the unit and "
-                   "frame of the input")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, GraspFrame>{
-          {"metres", GraspFrame::kMetres}, {"mesh", GraspFrame::kMesh}}))
-      ->default_str("metres")
-      ->needs(grasps);
+  AddChoice(
+      command, "--frame", &flags->frame,
+      "of --grasps: metres, as the metric rescales the object, or mesh, the unit and frame of "
+      "the input");
+  command->get_option("--frame")->needs(grasps);
   command->add_option("--baseline", flags->baseline,
                       "the same objects before a change (meshes, folders, SDF files; paired by "
                       "name): prints the paired difference under equal random numbers");

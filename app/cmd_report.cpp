@@ -54,6 +54,7 @@ std::string TitleOf(const std::vector<std::string>& inputs) {
 
 void WriteReport(const ReportFlags& flags, bool metric_given) {
   const AtomicFile probe(flags.out);  // refuses an unwritable target before the work
+  for (const std::string& read : flags.settings.inputs) RequireApart({read, flags.out});
   ConsoleObserver console;
   Report report = Collect(flags.settings, metric_given, &console);
   AddPrintChecks(flags.size_mm, flags.settings.threads, &console, &report);

@@ -22,6 +22,7 @@ struct SheetFlags {
 // One row an input; a single input fills several rows.
 void Sheet(const SheetFlags& flags) {
   const AtomicFile probe(flags.out);  // refuses an unwritable target before the work
+  ObjectSource(flags.inputs).RequireNotRead({flags.out});
   const bool single = flags.inputs.size() == 1;
   const auto columns = static_cast<std::size_t>(flags.columns);
   const std::size_t limit = columns * static_cast<std::size_t>(single ? flags.rows : 1);

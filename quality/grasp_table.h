@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <string>
 
+#include "antigrasp/core/choice.h"
 #include "antigrasp/core/csv_writer.h"
 #include "antigrasp/quality/graspability.h"
 
@@ -13,6 +15,10 @@ enum class GraspFrame {
   kMetres,  // as the metric looks at the object: rescaled
   kMesh     // the unit and frame of the mesh that was read
 };
+constexpr auto ChoicesOf(GraspFrame) {
+  return std::to_array<Choice<GraspFrame>>(
+      {{GraspFrame::kMetres, "metres"}, {GraspFrame::kMesh, "mesh"}});
+}
 
 // Every sampled grasp of scored objects, as grasps.csv holds them (docs/formats.md).
 class GraspTable {

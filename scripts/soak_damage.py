@@ -90,8 +90,8 @@ def corpus(bench):
     sets = [["info", "{}"], ["evaluate", "{}"], ["remesh", "{}", "--out", "{out}"], ["sheet", "{}", "--out", "{out}"]]
     networks = [["info", "{}"], ["sample", "{}", "--count", "2", "--out", "{out}"], ["generator", "{}", "--out", "{out}"]]
     folders = [["info", "{}"], ["info", "{}", "--csv"], ["report", "{}", "--out", "{out}"]]
-    if not folder.exists():
-        folder.mkdir()
+    if not (folder / "part.off").exists():  # the last that is made
+        folder.mkdir(exist_ok=True)
         obj = sorted((bench.inputs / "others").glob("*.obj"))[0]
         (folder / "text.stl").write_text(ascii_stl(obj.read_text()))
         shutil.copy(obj, folder / "part.obj")

@@ -134,6 +134,17 @@ TEST(NamesCli, NoFileOfAnObjectIsWrittenOver) {
   ExpectRefused("poses " + ball + " --out " + ball, "over an object's file");
   ExpectRefused("trial " + ball + " --out " + ball, "over an object's file");
   ExpectRefused("dataset import " + ball + " --out " + ball, "over a mesh to import");
+  ExpectRefused("dataset import " + ball + " --out " + dir + "x.h5 --report " + ball,
+                "over an object's file");
+  std::filesystem::create_directory(folder / "other");
+  WriteMesh(folder / "other/ball.stl", shapes::Cube());
+  const std::string original = dir + "other/ball.stl", cube = ReadFile(original);
+  ExpectRefused("evaluate " + ball + " --baseline " + original + " --out " + original,
+                "over an object's file");
+  ExpectRefused("compare " + dir + "other " + ball + " --out " + original, "over an object's file");
+  ExpectRefused("sheet " + ball + " --out " + ball, "over an object's file");
+  EXPECT_EQ(ReadFile(original), cube);
+  std::filesystem::remove_all(folder / "other");
   ExpectRefused("dataset import " + ball + " --out " + dir + "x.h5 --report " + dir + "x.h5",
                 "two files would be written as one");
   EXPECT_EQ(ReadFile(folder / "ball.stl"), before);

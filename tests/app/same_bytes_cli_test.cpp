@@ -2,6 +2,8 @@
 // OpenBLAS choose their kernels by the processor, unless they are told.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "antigrasp/core/atomic_file.h"
 #include "tests/app/run_binary.h"
 #include "tests/support/temp_folder.h"
@@ -19,6 +21,7 @@ constexpr const char* kCapped =
 
 std::string BytesOf(const std::string& environment, const std::string& arguments,
                     const std::filesystem::path& file) {
+  std::filesystem::remove(file);  // of the call before
   Shell(environment + ANTIGRASP_BINARY " " + arguments);
   return ReadFile(file);  // throws where the command left none
 }
