@@ -65,8 +65,10 @@ AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
     lock_.emplace(temp_);
   }
   // Nor can what another user left be written to.
-  if (!lock_->held() || !lock_->Write(""))
+  if (!lock_->held() || !lock_->Write("")) {
     temp_ = folder / TemporaryName(name, "-p" + std::to_string(::getpid()));
+    lock_.emplace(temp_);
+  }
 }
 
 AtomicFile::~AtomicFile() {
@@ -87,8 +89,8 @@ void AtomicFile::Commit() {
   SyncToDisk(temp_, O_WRONLY);
   if (std::rename(temp_.c_str(), target_.c_str()) != 0) FailIo("rename to", target_);
   committed_ = true;
+  lock_.reset();  // at once: HDF5 refuses to read what is locked
   SyncToDisk(FolderOf(target_), O_RDONLY | O_DIRECTORY);  // the rename itself survives a power cut
-  lock_.reset();                                          // HDF5 locks what it reads
 }
 
 void WriteFileAtomic(const fs::path& target, std::string_view bytes) {

@@ -16,7 +16,8 @@ FileLock::FileLock(std::filesystem::path path, Missing missing) : path_(std::mov
       if (errno == EINTR) continue;
       if (errno == EWOULDBLOCK) {
         state_ = State::kTaken;
-      } else if (struct stat now{}; ::fstat(file_, &now) == 0 && now.st_size == 0) {
+      } else if (struct stat now{};
+                 missing == Missing::kCreate && ::fstat(file_, &now) == 0 && now.st_size == 0) {
         ::unlink(path_.c_str());  // made by us for nothing: no locks here
       }
       Close();

@@ -16,7 +16,11 @@ using Handle = Hdf5Handle;
 
 // Of the library, which has one state for all files.
 std::recursive_mutex g_library;
-using Lock = std::lock_guard<std::recursive_mutex>;
+
+struct Lock {
+  explicit Lock(std::recursive_mutex& library) : guard(library) { SilenceHdf5(); }
+  std::lock_guard<std::recursive_mutex> guard;
+};
 
 Handle Utf8Type(std::size_t bytes) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
@@ -133,7 +137,6 @@ Hdf5File::~Hdf5File() {
 
 std::unique_ptr<Hdf5File> Hdf5File::Open(const std::filesystem::path& path) {
   const Lock lock(g_library);
-  SilenceHdf5();
   auto impl = std::make_unique<Impl>();
   impl->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!impl->file) return nullptr;
@@ -142,7 +145,6 @@ std::unique_ptr<Hdf5File> Hdf5File::Open(const std::filesystem::path& path) {
 
 std::unique_ptr<Hdf5File> Hdf5File::Create(const std::filesystem::path& path) {
   const Lock lock(g_library);
-  SilenceHdf5();
   auto impl = std::make_unique<Impl>();
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.get(), false);

@@ -29,11 +29,12 @@ class Hdf5Handle {
   Closer closer_;
 };
 
-// The library prints a stack of errors by default; ours are one line each.
+// The library prints a stack of errors by default, in every thread anew; ours are one line each.
 inline void SilenceHdf5() {
   // Whatever a damaged file left open would make the library complain when the program ends.
   [[maybe_unused]] static const herr_t no_exit_handler = H5dont_atexit();
-  [[maybe_unused]] static const herr_t quiet = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  [[maybe_unused]] static thread_local const herr_t quiet =
+      H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
 }  // namespace antigrasp

@@ -36,11 +36,14 @@ bool CanUnite(const Group& group, const Orientation& orientation) {
 
 std::optional<TriangleMesh> UnionOf(const Group& group, std::vector<TriangleMesh>* parts) {
   std::vector<TriangleMesh> meshes;
+  const bool inward = Volume((*parts)[group.front()]) < 0.0;
   for (const std::size_t p : group) {
     meshes.push_back(std::move((*parts)[p]));
-    if (Volume(meshes.back()) < 0.0) TurnOver(&meshes.back());
+    if (inward) TurnOver(&meshes.back());
   }
-  return Union(meshes);
+  std::optional<TriangleMesh> one = Union(meshes);
+  if (one && inward) TurnOver(&*one);
+  return one;
 }
 
 // Corners of the exact union this close, relative to the diagonal, are one in double, or next to
@@ -78,7 +81,8 @@ std::size_t UniteGroups(const Orientation& orientation, TriangleMesh* mesh) {
   }
   Weld(&whole);
   if (!Inspect(whole, false).closed || SelfIntersects(whole)) return 0;
-  OrientFaces(&whole, true);
+  // What lay in two of the pieces lies in one now: whether it is matter is no longer known.
+  if (OrientFaces(&whole, true).turned > 0) return 0;
   *mesh = std::move(whole);
   return united;
 }

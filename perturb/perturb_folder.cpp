@@ -35,6 +35,10 @@ std::string WhyNotStl(const TriangleMesh& mesh) {
   return text;
 }
 
+void Remove(const fs::path& path) {
+  for (const char* extension : {".stl", ".ply"}) fs::remove(path.string() + extension);
+}
+
 // Also takes away what an earlier call left there in the other format.
 void WriteAs(const std::string& extension, const fs::path& path, const TriangleMesh& mesh) {
   WriteMesh(path.string() + extension, mesh);
@@ -104,8 +108,12 @@ std::vector<std::string> WritePerturbedMeshes(const std::vector<PerturbedObject>
   MakeFolder(out / "after");
   for (const PerturbedObject& item : objects) {
     const TriangleMesh& before = item.scored.before;
-    if (before.faces.empty()) continue;
     const std::string file = FileNameOf(item.object.name);
+    if (!IsOk(item)) Remove(out / "after" / file);  // of an earlier call
+    if (before.faces.empty()) {
+      Remove(out / "before" / file);
+      continue;
+    }
     const std::string note = WhyNotStl(before);
     if (!note.empty()) notes.push_back(item.object.name + ": " + note);
     const std::string extension = note.empty() ? ".stl" : ".ply";

@@ -30,9 +30,10 @@ std::string PerturbSummary(const std::vector<PerturbedObject>& objects);
 // be written over an input.
 void CheckPerturbFolder(const std::vector<std::string>& inputs, const std::filesystem::path& out);
 
-// out/after/NAME.stl for every printable result, out/before/NAME.stl for every usable input.
-// NAME.ply where single precision would take more than 1e-5 of the object's size: it lies some
-// hundred times its size from the origin. Returns a line for each of these.
+// out/after/NAME.stl for every printable result, out/before/NAME.stl for every usable input that
+// was not cut short; what an earlier call left there of the others goes. NAME.ply where single
+// precision would take more than 1e-5 of the object's size: it lies some hundred times its size
+// from the origin. Returns a line for each of these.
 std::vector<std::string> WritePerturbedMeshes(const std::vector<PerturbedObject>& objects,
                                               const std::filesystem::path& out);
 

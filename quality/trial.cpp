@@ -38,7 +38,8 @@ class Bench {
  public:
   Bench(const TriangleMesh& mesh, double scale, const MetricOptions& metric,
         const TrialOptions& options)
-      : mesh_(Transformed(mesh, scale, Vector3d::Zero() - scale * RoundPlace(mesh))),
+      : mesh_(Transformed(Transformed(mesh, 1.0, Vector3d::Zero() - RoundPlace(mesh)), scale,
+                          Vector3d::Zero())),
         scene_(mesh_),
         com_(CenterOfMass(mesh_)),
         poses_(StablePoses(mesh_, com_)),

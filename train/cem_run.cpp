@@ -71,7 +71,6 @@ void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder&
   forked.cem.select = EliteOrder::kRandom;
   forked.cem.control = false;
   forked.stl_count = 0;
-  MakeFolder(control.root);
   WriteFileAtomic(control.Prior(), ReadFile(run.Prior()));
   Checkpoint checkpoint = ReadCheckpoint(run.EpisodeCheckpoint(0));
   checkpoint.config = ToToml(forked);
@@ -101,7 +100,9 @@ RunResult Finish(const RunConfig& config, const RunFolder& folder, const torch::
 RunConfig ConfigOfRun(const fs::path& folder) {
   const RunFolder run{folder};
   RequireFile(run.Config(), "the config.toml of a run");
-  return FromToml(ReadFile(run.Config()), run.Config().string());
+  const RunConfig config = FromToml(ReadFile(run.Config()), run.Config().string());
+  Validate(config, run.Config().string());
+  return config;
 }
 
 RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver* observer,
@@ -112,7 +113,8 @@ RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver*
   RequireSameModel(config);
   make(config);  // refuses a device that is not there, first
   const RunLock lock(run);
-  RequireNoRun(run);  // that another process has begun and left
+  RequireNoRun(run);   // that another process has begun and left
+  MakeFolder(folder);  // it is there: refuses one that cannot be written to, before the work
   ProvenanceRecorder recorder(run, ProvenanceNow(config), observer);
   const torch::Tensor prior = MakePrior(config, run, &recorder);
   WriteFileAtomic(run.Config(), ToToml(config));

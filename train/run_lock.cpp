@@ -23,7 +23,7 @@ void RemoveLeavings(const RunFolder& run) {
 }  // namespace
 
 RunLock::RunLock(const RunFolder& run) {
-  if (!fs::exists(run.root)) {
+  if (!fs::is_directory(run.root)) {  // a file in its place is refused
     MakeFolder(run.root);
     made_ = run.root;
   }

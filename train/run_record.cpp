@@ -32,12 +32,11 @@ std::vector<ScoreRow> ReadStageScores(const fs::path& path) {
 std::vector<int> EpisodesIn(const RunFolder& run) {
   constexpr std::string_view kPrefix = "episode_";
   std::vector<int> episodes;
-  for (const auto& entry : fs::directory_iterator(run.root)) {
-    const std::string name = entry.path().filename().string();
+  for (const fs::path& folder : run.Episodes()) {
+    const std::string name = folder.filename().string();
     int episode = -1;
-    if (!name.starts_with(kPrefix)) continue;
     std::from_chars(name.data() + kPrefix.size(), name.data() + name.size(), episode);
-    if (entry.path() == run.Episode(episode)) episodes.push_back(episode);
+    if (folder == run.Episode(episode)) episodes.push_back(episode);
   }
   return episodes;
 }

@@ -18,7 +18,7 @@ struct StageStatistics {
   int scored = 0;
   int without_grasps = 0;  // graspability 0 because no grasp was found
   MeanInterval graspability;
-  double elite_threshold = 0.0;  // the highest graspability kept; NaN at the last stage
+  double elite_threshold = 0.0;  // the highest graspability kept; NaN of the prior set
   double coverage = 0.0;  // prior_similarity.h, against the prior set; NaN for the prior itself
   double nna = 0.0;
   double duplicates = 0.0;

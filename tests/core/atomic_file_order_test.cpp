@@ -124,8 +124,9 @@ TEST_F(AtomicFileOrder, BytesAreOnDiskBeforeTheNewNameIs) {
   WriteFileAtomic(listening_.folder / "a.txt", std::string(100000, 'x'));
   EXPECT_EQ(listening_.calls,
             (std::vector<std::string>{"write temporary", "close temporary", "sync temporary",
-                                      "close temporary", "rename temporary to a.txt", "sync folder",
-                                      "close folder", "close a.txt"}));  // the lock
+                                      "close temporary", "rename temporary to a.txt",
+                                      "close a.txt",  // the lock
+                                      "sync folder", "close folder"}));
 }
 
 TEST_F(AtomicFileOrder, WhatTheDiskRefusesIsNotRenamed) {

@@ -175,6 +175,19 @@ TEST(PerturbFolder, MeshesAndTheSheetShowBeforeAndAfterInTheirPlaces) {
   EXPECT_GT(dark(0), 3 * dark(sheet.width));
 }
 
+TEST(PerturbFolder, WhatAnEarlierCallLeftOfAnObjectThatFailsNowIsNotTakenForItsResult) {
+  const shapes::TempFolder folder;
+  WritePerturbedMeshes({Changed()}, folder.path());
+  ASSERT_TRUE(std::filesystem::exists(folder / "after/ball.stl"));
+  PerturbedObject failed = Changed();
+  failed.scored.result.failure = "after: self-intersecting";
+  WritePerturbedMeshes({failed}, folder.path());
+  EXPECT_TRUE(std::filesystem::exists(folder / "before/ball.stl"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "after/ball.stl"));
+  WritePerturbedMeshes({Refused("ball.stl", "open: 1 boundary edge")}, folder.path());
+  EXPECT_FALSE(std::filesystem::exists(folder / "before/ball.stl"));
+}
+
 TEST(PerturbFolder, AnObjectThatStlWouldSpoilIsWrittenAsPlyWhereItLies) {
   const shapes::TempFolder folder;
   const Eigen::Vector3d place(0.0, 900000.0, 0.0);

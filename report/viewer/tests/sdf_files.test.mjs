@@ -7,7 +7,11 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, before, describe, it } from "node:test";
 
-const installed = async (name) => import(name).catch(() => null);
+const installed = async (name) =>
+  import(name).catch((error) => {
+    if (error.code === "ERR_MODULE_NOT_FOUND" && error.message.includes(`'${name.split("/")[0]}'`)) return null;
+    throw error; // it is there and does not load
+  });
 const jsfive = await installed("jsfive");
 const h5wasm = await installed("h5wasm/node");
 const missing = (reader, name) => (reader ? false : `${name} is not installed`);
