@@ -85,7 +85,7 @@ void Poses(const PosesFlags& flags) {
   }
 }
 
-constexpr const char* kColumns =
+constexpr const char* kPoseColumns =
     "Columns: probability of the pose after a drop in a random orientation (quasi-static);\n"
     "com_height, the centre of mass above the table in the mesh's unit; r00 ... r22, the rotation\n"
     "from the object to the table frame by rows: r20 r21 r22 is the table's normal, up, in the\n"
@@ -102,7 +102,7 @@ void AddPosesCommand(CLI::App* app) {
   command->add_option("--threads", flags->threads, "threads; 0 = all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->footer(kColumns);
+  command->footer(kPoseColumns);
   command->callback([flags] { Poses(*flags); });
 }
 

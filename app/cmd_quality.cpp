@@ -56,7 +56,7 @@ void Quality(const QualityFlags& flags, const OptionFlags& contact_flags) {
   std::fputs(ContactSummary(qualities).c_str(), stderr);
 }
 
-constexpr const char* kColumns =
+constexpr const char* kQualityColumns =
     "Columns by name, in any order, others ignored; lengths in one unit:\n"
     "  p1x p1y p1z p2x p2y p2z        the two contact points\n"
     "  n1x n1y n1z n2x n2y n2z        outward normals of the object there\n"
@@ -84,7 +84,7 @@ void AddQualityCommand(CLI::App* app) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   const auto contact_flags = std::make_shared<OptionFlags>(ContactOptionFlags(command));
-  command->footer(kColumns);
+  command->footer(kQualityColumns);
   command->callback([flags, contact_flags] { Quality(*flags, *contact_flags); });
 }
 

@@ -79,7 +79,7 @@ void Shape(ShapeFlags flags, const OptionFlags& search) {
   PrintCertificate(solid, flags);
 }
 
-constexpr const char* kAbout =
+constexpr const char* kAboutShapes =
     "The cube carries the paper's pyramids on three faces (up to 30 degrees); the corners of the\n"
     "others are moved at random until no two faces oppose each other under less than phi, and "
     "then\n"
@@ -116,7 +116,7 @@ void AddShapeCommand(CLI::App* app) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   const auto search = std::make_shared<OptionFlags>(SearchFlags(command));
-  command->footer(kAbout);
+  command->footer(kAboutShapes);
   command->callback([flags, search] { Shape(*flags, *search); });
 }
 

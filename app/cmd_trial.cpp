@@ -101,7 +101,7 @@ void Trial(const TrialFlags& flags, const OptionFlags& trial_flags,
   std::fputs(TrialText(names, all, options.min_epsilon).c_str(), stdout);
 }
 
-constexpr const char* kAbout =
+constexpr const char* kAboutTrial =
     "A series plans anew: antipodal grasps with their robust quality. Then, five times, it draws "
     "a\n"
     "stable pose by its probability, takes the best grasp that the gripper reaches from above the\n"
@@ -142,7 +142,7 @@ void AddTrialCommand(CLI::App* app) {
   for (const char* name : {"--friction", "--percentile"}) {
     command->remove_option(command->get_option(name));
   }
-  command->footer(kAbout);
+  command->footer(kAboutTrial);
   command->callback(
       [flags, trial_flags, metric_flags] { Trial(*flags, *trial_flags, *metric_flags); });
 }

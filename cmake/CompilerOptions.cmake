@@ -5,6 +5,11 @@ target_compile_features(antigrasp_options INTERFACE cxx_std_20)
 # -Wno-restrict: GCC 12 warns wrongly about "literal" + std::string (GCC bug 105329).
 target_compile_options(antigrasp_options INTERFACE -Wall -Wextra -Wconversion -Wno-sign-conversion
                                                    -Wno-restrict -ffp-contract=off)
+# A unity build compiles some eight files of a target as one. GCC then takes the private parts of a class, whose types
+# are of one file alone, for those of a header.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(antigrasp_options INTERFACE -Wno-subobject-linkage)
+endif()
 if(ANTIGRASP_WERROR)
   target_compile_options(antigrasp_options INTERFACE -Werror)
 endif()

@@ -14,18 +14,11 @@ function(antigrasp_precompiled_headers name)
   target_link_libraries(antigrasp_${name}_headers PRIVATE antigrasp_options ${ARG_LIBS})
 endfunction()
 
-# antigrasp_read_precompiled(antigrasp_gan torch [EXCEPT gan_options.cpp ...])
-# EXCEPT: sources that do not use the library; reading LibTorch's headers for nothing takes a second and a half. A
-# source with instruction sets of its own sets SKIP_PRECOMPILE_HEADERS itself: the compiler refuses them there.
+# antigrasp_read_precompiled(antigrasp_gan torch)
+# A source with instruction sets of its own sets SKIP_PRECOMPILE_HEADERS: the compiler refuses them there.
 function(antigrasp_read_precompiled target name)
   if(NOT TARGET ${target})
     return()
-  endif()
-  cmake_parse_arguments(ARG "" "" "EXCEPT" ${ARGN})
-  if(ARG_EXCEPT)
-    get_target_property(folder ${target} SOURCE_DIR)
-    list(TRANSFORM ARG_EXCEPT PREPEND ${folder}/)
-    set_source_files_properties(${ARG_EXCEPT} TARGET_DIRECTORY ${target} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
   endif()
   target_precompile_headers(${target} REUSE_FROM antigrasp_${name}_headers)
   get_target_property(type ${target} TYPE)

@@ -20,14 +20,12 @@
 #include "antigrasp/mesh/mesh_format.h"
 #include "antigrasp/mesh/repair.h"
 #include "antigrasp/sdf/mesh_to_sdf.h"
+#include "antigrasp/sdf/sdf_grid.h"
 
 namespace antigrasp {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Grid cells between the largest bounding box and each side of the unit cube.
-constexpr double kClearance = 2.0;
 
 struct Source {
   fs::path path;
@@ -263,7 +261,7 @@ void WriteGrids(const Spool& grids, const std::vector<Item>& items,
 
 std::vector<ImportedMesh> ImportMeshes(const std::vector<fs::path>& inputs, const fs::path& out,
                                        const ImportOptions& options, const ProgressFn& progress) {
-  AG_CHECK(options.resolution > 2.0 * kClearance, "a grid larger than its border");
+  AG_CHECK(options.resolution > 2.0 * kFreeCells, "a grid larger than its border");
   const std::vector<Source> sources = FindSources(inputs);
   const std::string where = Joined(inputs);
   if (sources.empty()) {
@@ -282,7 +280,7 @@ std::vector<ImportedMesh> ImportMeshes(const std::vector<fs::path>& inputs, cons
   std::vector<Item> items = ReadAll(sources, options.threads, &meshes, report_from(0));
   CountUsable(items, where);
 
-  const double room = (options.resolution - 2.0 * kClearance) / options.resolution;
+  const double room = (options.resolution - 2.0 * kFreeCells) / options.resolution;
   const bool one = options.scale == ImportScale::kSet;
   const double scale = one ? room / LongestOfTheSet(&items) : 0.0;
   const auto scale_of = [&](const Item& item) { return one ? scale : room / item.extent; };

@@ -22,10 +22,8 @@ namespace {
 using Eigen::Vector3d;
 
 // Shapes are drawn in a cube of side 1, the "design cube", and shrunk by the one factor that leaves
-// kClearance grid cells free on each side (VI-C: the entire set is scaled alike).
-constexpr double kClearance = 2.0;
-
-double SetScale(int resolution) { return (resolution - 2.0 * kClearance) / resolution; }
+// kFreeCells cells free on each side (VI-C: the entire set is scaled alike).
+double SetScale(int resolution) { return (resolution - 2.0 * kFreeCells) / resolution; }
 
 // Uniform over all rotations: a normalised 4-D Gaussian is a uniform unit quaternion.
 Eigen::Matrix3d DrawRotation(RngStream& rng) {

@@ -22,12 +22,12 @@ std::size_t DropFaces(TriangleMesh* mesh, const Drop& drop) {
 }
 
 // A face by its corners in ascending order, whatever its winding.
-struct Corners {
+struct SortedCorners {
   std::array<std::int32_t, 3> sorted;
   std::size_t face;
   bool even;  // an even permutation away from the face's own order
 
-  Corners(const TriangleMesh& mesh, std::size_t f) : sorted(mesh.faces[f]), face(f) {
+  SortedCorners(const TriangleMesh& mesh, std::size_t f) : sorted(mesh.faces[f]), face(f) {
     const auto& [a, b, c] = sorted;
     even = ((a < b) + (b < c) + (c < a)) == 2;
     std::sort(sorted.begin(), sorted.end());
@@ -36,10 +36,10 @@ struct Corners {
 
 // Drops the copies. Which faces had a copy of the other winding is left in `opposed`.
 std::size_t KeepFirsts(TriangleMesh* mesh, std::vector<bool>* opposed) {
-  std::vector<Corners> keys;
+  std::vector<SortedCorners> keys;
   keys.reserve(mesh->faces.size());
   for (std::size_t f = 0; f < mesh->faces.size(); ++f) keys.emplace_back(*mesh, f);
-  std::sort(keys.begin(), keys.end(), [](const Corners& a, const Corners& b) {
+  std::sort(keys.begin(), keys.end(), [](const SortedCorners& a, const SortedCorners& b) {
     return std::pair(a.sorted, a.face) < std::pair(b.sorted, b.face);
   });
   std::vector<bool> repeated(keys.size(), false), facing(keys.size(), false);

@@ -7,17 +7,17 @@
 namespace antigrasp {
 namespace {
 
-using Point = CGAL::Exact_predicates_exact_constructions_kernel::Point_3;
-using SurfaceMesh = CGAL::Surface_mesh<Point>;
+using ExactPoint = CGAL::Exact_predicates_exact_constructions_kernel::Point_3;
+using ExactMesh = CGAL::Surface_mesh<ExactPoint>;
 namespace corefinement = CGAL::Polygon_mesh_processing;
 
-std::optional<SurfaceMesh> ToSurfaceMesh(const TriangleMesh& mesh) {
-  SurfaceMesh surface;
-  for (const auto& v : mesh.vertices) surface.add_vertex(Point(v.x(), v.y(), v.z()));
-  using Vertex = SurfaceMesh::Vertex_index;
+std::optional<ExactMesh> ToExactMesh(const TriangleMesh& mesh) {
+  ExactMesh surface;
+  for (const auto& v : mesh.vertices) surface.add_vertex(ExactPoint(v.x(), v.y(), v.z()));
+  using Vertex = ExactMesh::Vertex_index;
   for (const auto& [a, b, c] : mesh.faces) {
     const auto face = surface.add_face(Vertex(a), Vertex(b), Vertex(c));
-    if (face == SurfaceMesh::null_face()) return std::nullopt;
+    if (face == ExactMesh::null_face()) return std::nullopt;
   }
   return surface;
 }
@@ -26,12 +26,12 @@ std::optional<SurfaceMesh> ToSurfaceMesh(const TriangleMesh& mesh) {
 // asked of it before.
 double Rounded(const CGAL::Epeck::FT& value) { return CGAL::to_double(value.exact()); }
 
-TriangleMesh ToTriangleMesh(const SurfaceMesh& surface) {
+TriangleMesh ToTriangleMesh(const ExactMesh& surface) {
   TriangleMesh mesh;
   std::vector<std::int32_t> number(surface.num_vertices());
   for (const auto vertex : surface.vertices()) {
     number[vertex.idx()] = static_cast<std::int32_t>(mesh.vertices.size());
-    const Point& p = surface.point(vertex);
+    const ExactPoint& p = surface.point(vertex);
     mesh.vertices.emplace_back(Rounded(p.x()), Rounded(p.y()), Rounded(p.z()));
   }
   for (const auto face : surface.faces()) {
@@ -48,11 +48,11 @@ TriangleMesh ToTriangleMesh(const SurfaceMesh& surface) {
 }  // namespace
 
 std::optional<TriangleMesh> Union(const std::vector<TriangleMesh>& meshes) {
-  std::optional<SurfaceMesh> whole = ToSurfaceMesh(meshes.front());
+  std::optional<ExactMesh> whole = ToExactMesh(meshes.front());
   for (std::size_t i = 1; whole && i < meshes.size(); ++i) {
-    std::optional<SurfaceMesh> part = ToSurfaceMesh(meshes[i]);
+    std::optional<ExactMesh> part = ToExactMesh(meshes[i]);
     if (!part) return std::nullopt;
-    SurfaceMesh both;
+    ExactMesh both;
     try {
       if (!corefinement::corefine_and_compute_union(
               *whole, *part, both, CGAL::parameters::throw_on_self_intersection(true))) {

@@ -19,7 +19,6 @@ using torch::autograd::AutogradContext;
 using torch::autograd::Function;
 using torch::autograd::variable_list;
 
-constexpr at::MemoryFormat kChannelsLast = at::MemoryFormat::ChannelsLast3d;
 constexpr std::int64_t kTaps = 64, kBlock = 16;
 
 // Number s of the folded kernel's tap and phase p of tap t of 4^3.

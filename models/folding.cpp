@@ -15,8 +15,6 @@ using torch::autograd::AutogradContext;
 using torch::autograd::Function;
 using torch::autograd::variable_list;
 
-constexpr at::MemoryFormat kChannelsLast = at::MemoryFormat::ChannelsLast3d;
-
 // The memory moves take float on the CPU; every other tensor goes through strided copies.
 bool HasMoves(const at::Tensor& x) {
   return x.device().is_cpu() && x.scalar_type() == at::kFloat && x.numel() > 0;

@@ -12,6 +12,9 @@ namespace antigrasp {
 // with AVX2 goes through cell_conv.h, all else through the convolutions of LibTorch. Everything
 // here is differentiable once.
 
+// Networks keep the channels of a node side by side.
+inline constexpr at::MemoryFormat kChannelsLast = at::MemoryFormat::ChannelsLast3d;
+
 // [N, C, s, s, s] <-> [N, 8 C, h, h, h], s even: channel p C + c of a cell is channel c of its node
 // p = 4 pz + 2 py + px. Unfolding drops the ring. Each is the other's gradient.
 torch::Tensor Fold(const torch::Tensor& grid);

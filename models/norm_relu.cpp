@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "antigrasp/models/folding.h"
 #include "antigrasp/models/norm_rows.h"
 
 namespace antigrasp {
@@ -16,7 +17,6 @@ using torch::autograd::AutogradContext;
 using torch::autograd::Function;
 using torch::autograd::variable_list;
 
-constexpr at::MemoryFormat kChannelsLast = at::MemoryFormat::ChannelsLast3d;
 constexpr std::int64_t kChunk = 256;  // rows summed in float; chunks are then added up in double
 
 // A tensor as rows of channels, and how many there are of each.

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/perturb/decimate.h"
 #include "antigrasp/perturb/pair_sampler.h"
 
@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kParallel = 1e-9;  // sine below which two directions count as parallel
 
 Vector3d LongestEdge(const FaceShape& shape) {
@@ -140,7 +139,7 @@ PerturbResult PerturbByRotation(const TriangleMesh& mesh, const PairLimits& pair
     result.start = std::move(decimated.mesh);
   }
   MoveLimits limits = GuardLimits(common);
-  if (!common.unchecked) limits.max_turn_from_start = options.max_turn * kRadians;
+  if (!common.unchecked) limits.max_turn_from_start = options.max_turn * kDegree;
   EditableMesh work(result.start, limits);
   RotationRun run(pairs, options, &work, rng, &result);
   const auto iterations = options.iterations > 0

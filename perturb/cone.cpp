@@ -7,7 +7,6 @@
 namespace antigrasp {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Range kNothing{1.0, 0.0};
 
 Range Overlap(const Range& a, const Range& b) {
@@ -52,14 +51,15 @@ Range ClipToCone(const Eigen::Vector3d& start, const Eigen::Vector3d& step, cons
   }
   if (a > 0.0) {
     const Range zeros = Zeros(a, b, c);
-    return Overlap(range, rise > 0.0 ? Range{zeros.high, kInfinity} : Range{-kInfinity, zeros.low});
+    return Overlap(range,
+                   rise > 0.0 ? Range{zeros.high, kUnbounded} : Range{-kUnbounded, zeros.low});
   }
-  if (rise > 0.0 && b > 0.0) return Overlap(range, {-0.5 * c / b, kInfinity});
-  if (rise < 0.0 && b < 0.0) return Overlap(range, {-kInfinity, -0.5 * c / b});
+  if (rise > 0.0 && b > 0.0) return Overlap(range, {-0.5 * c / b, kUnbounded});
+  if (rise < 0.0 && b < 0.0) return Overlap(range, {-kUnbounded, -0.5 * c / b});
   if (b != 0.0 || c < 0.0) return kNothing;
   if (rise == 0.0) return height >= 0.0 ? range : kNothing;
   const double apex = -height / rise;  // the line runs along the cone's surface
-  return Overlap(range, rise > 0.0 ? Range{apex, kInfinity} : Range{-kInfinity, apex});
+  return Overlap(range, rise > 0.0 ? Range{apex, kUnbounded} : Range{-kUnbounded, apex});
 }
 
 }  // namespace antigrasp

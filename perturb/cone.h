@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 namespace antigrasp {
 
@@ -19,6 +20,7 @@ struct Range {
   double low, high;
   bool empty() const { return !(low <= high); }
 };
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // The part of start + s * step, s in `range`, that lies in the cone: one range, because cones are
 // convex. Closed form (one square root). The apex itself counts as inside.

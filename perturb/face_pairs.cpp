@@ -12,7 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Nearer than this share of the faces' size, p and q are one point (a shared corner, rounded).
 constexpr double kSamePoint = 1e-12;
 // A plane separates two shapes when it does so by this share of their distance.
@@ -32,10 +31,10 @@ struct Lens {
 };
 
 // The nine differences of corners, which are the corners of D = second - first.
-using Corners = std::array<std::array<Vector3d, 3>, 3>;  // [of the first][of the second]
+using Differences = std::array<std::array<Vector3d, 3>, 3>;  // [of the first][of the second]
 
-Corners CornersOf(const FaceShape& first, const FaceShape& second) {
-  Corners d;
+Differences DifferencesOf(const FaceShape& first, const FaceShape& second) {
+  Differences d;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) d[i][j] = second.corner[j] - first.corner[i];
   }
@@ -54,7 +53,7 @@ Range ClipToLens(const Vector3d& from, const Vector3d& to, const Lens& lens) {
 
 // Calls visit(from, to) for the 18 segments that hold the edges of D, until it returns true.
 template <typename Visit>
-bool AnySegment(const Corners& d, const Visit& visit) {
+bool AnySegment(const Differences& d, const Visit& visit) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
       if (visit(d[i][j], d[i][(j + 1) % 3]) || visit(d[i][j], d[(i + 1) % 3][j])) return true;
@@ -64,13 +63,13 @@ bool AnySegment(const Corners& d, const Visit& visit) {
 }
 
 template <typename Visit>
-bool AnyCorner(const Corners& d, const Visit& visit) {
+bool AnyCorner(const Differences& d, const Visit& visit) {
   return std::any_of(d.begin(), d.end(),
                      [&](const auto& row) { return std::any_of(row.begin(), row.end(), visit); });
 }
 
 // Whether the plane that touches the cone where it is nearest to `towards` has all of D beyond it.
-bool IsBeyond(const Corners& d, const Vector3d& towards, const Cone& cone, double cosine,
+bool IsBeyond(const Differences& d, const Vector3d& towards, const Cone& cone, double cosine,
               double sine) {
   const Vector3d sideways = towards - towards.dot(cone.axis) * cone.axis;
   const double length = sideways.norm();
@@ -102,7 +101,7 @@ Range AlongRay(const FaceShape& first, const FaceShape& second, const Vector3d& 
     polygon = kept;
     count = kept_count;
   }
-  Range range{kInfinity, -kInfinity};
+  Range range{kUnbounded, -kUnbounded};
   for (std::size_t k = 0; k < count; ++k) {
     const double at = first.normal.dot(polygon[k] - first.corner[0]) / first.normal.dot(direction);
     range = {std::min(range.low, at), std::max(range.high, at)};
@@ -201,7 +200,7 @@ AntipodalTest::Guess AntipodalTest::ByCenters(const FaceShape& first,
 
 bool AntipodalTest::Meet(const FaceShape& first, const FaceShape& second) const {
   const Lens lens(first, second, limits_.cone_angle);
-  const Corners d = CornersOf(first, second);
+  const Differences d = DifferencesOf(first, second);
   // Two quick answers first; neither decides what the rest would decide otherwise.
   if (AnyCorner(d, [&](const Vector3d& corner) { return lens.Contains(corner); })) return true;
   const Vector3d between = second.center - first.center;
@@ -226,12 +225,12 @@ bool AntipodalTest::operator()(const FaceShape& first, const FaceShape& second) 
 }
 
 double AntipodalTest::Width(const FaceShape& first, const FaceShape& second) const {
-  if (-first.normal.dot(second.normal) < cosine_of_double_) return kInfinity;
-  if (!first.has_area() || !second.has_area()) return kInfinity;
+  if (-first.normal.dot(second.normal) < cosine_of_double_) return kUnbounded;
+  if (!first.has_area() || !second.has_area()) return kUnbounded;
   const double same_point = kSamePoint * (first.radius + second.radius);
   const Lens lens(first, second, limits_.cone_angle);
-  double width = kInfinity;
-  AnySegment(CornersOf(first, second), [&](const Vector3d& from, const Vector3d& to) {
+  double width = kUnbounded;
+  AnySegment(DifferencesOf(first, second), [&](const Vector3d& from, const Vector3d& to) {
     const Range range = ClipToLens(from, to, lens);
     if (range.empty()) return false;
     const Vector3d step = to - from;

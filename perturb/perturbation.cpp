@@ -3,10 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "antigrasp/core/angles.h"
+
 namespace antigrasp {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 // Jaws that open to 40 mm hold a cube of 40 mm: what single precision takes off or adds, as a share
 // of the opening, must not decide.
 constexpr double kOpeningSlack = 1e-5;
@@ -33,7 +34,7 @@ void Bind(OptionTable* table, PerturbOptions* options) {
 
 PairLimits PairLimitsOf(const PerturbOptions& options, double friction, double metres_per_unit) {
   PairLimits limits;
-  limits.cone_angle = options.cone > 0.0 ? options.cone * kRadians : std::atan(friction);
+  limits.cone_angle = options.cone > 0.0 ? options.cone * kDegree : std::atan(friction);
   if (options.max_width > 0.0) limits.max_width = options.max_width / metres_per_unit;
   limits.width_slack = kOpeningSlack;
   return limits;

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/rng.h"
 #include "antigrasp/mesh/convex_hull.h"
@@ -17,7 +17,6 @@ namespace {
 using Corners = std::vector<Eigen::Vector3d>;
 using Eigen::Vector3d;
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kReachedSlack = 1e-4;     // degrees; what single precision leaves of an angle
 constexpr double kBestPyramidCube = 30.0;  // degrees, where phi = 90 - 2 phi
 constexpr double kTargetMargin = 1e-3;  // degrees; searched beyond phi, so that rounding keeps phi
@@ -82,7 +81,7 @@ TriangleMesh PyramidCube(double phi_degrees) {
   for (int i = 0; i < 8; ++i) {
     cube.vertices.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
   }
-  const double height = std::tan(phi_degrees * kRadians);  // half of the edge 2
+  const double height = std::tan(phi_degrees * kDegree);  // half of the edge 2
   // The sides at -x, -y, -z, then at +x, +y, +z, counter-clockwise from outside.
   const std::array<std::int32_t, 4> sides[] = {{0, 4, 6, 2}, {0, 1, 5, 4}, {0, 2, 3, 1},
                                                {1, 3, 7, 5}, {2, 6, 7, 3}, {4, 5, 7, 6}};
@@ -182,7 +181,7 @@ Corners FindCorners(const Corners& start, const PolyhedronOptions& options, int 
   const auto moves = static_cast<std::int64_t>(options.moves) * std::ssize(start);
   std::vector<Search> searches;
   for (int i = 0; i < options.restarts; ++i) {
-    searches.emplace_back(start, (options.phi + kTargetMargin) * kRadians, options.seed,
+    searches.emplace_back(start, (options.phi + kTargetMargin) * kDegree, options.seed,
                           static_cast<std::uint64_t>(i));
   }
   for (std::size_t round = 0; round < weights.size(); ++round) {
@@ -213,7 +212,7 @@ Antipodality SmallestAntipodality(const TriangleMesh& mesh) {
     for (std::size_t j = i + 1; j < normals.size(); ++j) {
       if (normals[i].isZero(0.0) || normals[j].isZero(0.0)) continue;
       const double degrees =
-          std::atan2(normals[i].cross(normals[j]).norm(), -normals[i].dot(normals[j])) / kRadians;
+          std::atan2(normals[i].cross(normals[j]).norm(), -normals[i].dot(normals[j])) / kDegree;
       if (degrees < smallest.degrees) smallest = {degrees, i, j};
     }
   }
@@ -266,7 +265,7 @@ AdversarialPolyhedron MakeAdversarialPolyhedron(Polyhedron kind, const Polyhedro
   if (kind == Polyhedron::kCube) {
     const double phi = std::min(options.phi, kBestPyramidCube);
     take(Transformed(PyramidCube(phi), 0.5 * options.size, Vector3d::Zero()));
-    result.largest_move = 0.5 * std::tan(phi * kRadians);
+    result.largest_move = 0.5 * std::tan(phi * kDegree);
     result.rms_move = result.largest_move * std::sqrt(3.0 / 11.0);  // three of eleven vertices
     return result;
   }

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/core/check.h"
 #include "antigrasp/perturb/draw_direction.h"
 #include "antigrasp/perturb/pair_sampler.h"
@@ -16,7 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 // Steps end this share of alpha short of it, so that rounding the vertex to single precision hardly
 // ever turns a face beyond.
 constexpr double kMargin = 1e-3;
@@ -97,7 +96,7 @@ class RandomRun {
 
  private:
   std::optional<Candidate> Choose(const PairSampler::Pair& pair, std::int32_t vertex) {
-    const double angle = options_.alpha * kRadians * (1.0 - kMargin);
+    const double angle = options_.alpha * kDegree * (1.0 - kMargin);
     const double now = AntipodalityAngle(mesh_.Normal(pair.first), mesh_.Normal(pair.second));
     std::optional<Candidate> best;
     bool some_without_gain = false;
@@ -202,7 +201,7 @@ PerturbResult PerturbRandomly(const TriangleMesh& mesh, const PairLimits& pairs,
   PerturbResult result;
   if (!BeginPerturbation(mesh, &result)) return result;
   MoveLimits limits = GuardLimits(common);
-  const double alpha = options.alpha * kRadians;
+  const double alpha = options.alpha * kDegree;
   if (options.limit == NormalLimit::kOriginal) {
     limits.max_turn_from_start = alpha;
   } else {

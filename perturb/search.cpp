@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/perturb/search_projection.h"
 #include "antigrasp/perturb/validity.h"
 #include "antigrasp/quality/graspability.h"
@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr int kSweepsToFinish = 300;
 // Adam (Kingma and Ba 2015), its usual constants but for a shorter memory of the spread.
 constexpr double kMomentum = 0.9, kSpreadMomentum = 0.99;
@@ -147,7 +146,7 @@ class SearchRun {
   }
 
  private:
-  double Alpha() const { return options_.alpha * kRadians; }
+  double Alpha() const { return options_.alpha * kDegree; }
 
   double MetresPerUnit() const {
     if (!(metric_.object_min_extent > 0.0)) return 1.0;

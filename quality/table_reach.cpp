@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 // A grasp axis nearer to the table's normal than this share of a unit vector has no steepest way
 // in.
-constexpr double kNoDirection = 1e-9;
+constexpr double kNoWayIn = 1e-9;
 
 // Signed distance of the lowest corner of the boxes above the plane up . x = 0; `center` is where
 // the gripper frame has its origin.
@@ -69,7 +69,7 @@ std::optional<Vector3d> TableReach::Approach(const Grasp& grasp, const StablePos
   const Vector3d up = pose.table_from_object.row(2);
   const double level = up.dot(impl_->com) - pose.com_height;
   const Vector3d across = up.dot(grasp.axis) * grasp.axis - up;
-  if (across.norm() < kNoDirection) return std::nullopt;
+  if (across.norm() < kNoWayIn) return std::nullopt;
   const Vector3d steepest = across.normalized();
   const Vector3d aside = steepest.cross(grasp.axis);
   const double least_cosine = std::cos(impl_->table.approach_cone * std::numbers::pi / 180.0);
@@ -77,7 +77,7 @@ std::optional<Vector3d> TableReach::Approach(const Grasp& grasp, const StablePos
     const int step = i % 2 == 1 ? (i + 1) / 2 : -i / 2;
     const double angle = 2.0 * std::numbers::pi * step / impl_->gripper.approach_angles;
     const Vector3d approach = std::cos(angle) * steepest + std::sin(angle) * aside;
-    if (-approach.dot(up) < least_cosine - kNoDirection) break;  // the next ones are flatter still
+    if (-approach.dot(up) < least_cosine - kNoWayIn) break;  // the next ones are flatter still
     if (impl_->IsFree(grasp, approach, up, level)) return approach;
   }
   return std::nullopt;

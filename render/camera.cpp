@@ -3,14 +3,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "antigrasp/core/angles.h"
 
 namespace antigrasp {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kMargin = 1.04;  // of the picture about the object
 
 double LargestDistance(const TriangleMesh& mesh, const Vector3d& from) {
@@ -27,7 +27,7 @@ Eigen::Vector2d Camera::Project(const Vector3d& point) const {
 }
 
 Camera CameraFor(const TriangleMesh& mesh, double azimuth, double elevation) {
-  const double a = azimuth * kRadians, e = elevation * kRadians;
+  const double a = azimuth * kDegree, e = elevation * kDegree;
   Camera camera;
   camera.forward = -Vector3d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
   camera.right = Vector3d(-std::sin(a), std::cos(a), 0.0);

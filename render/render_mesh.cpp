@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/mesh/ray_scene.h"
 
 namespace antigrasp {
@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kAmbient = 0.42;
 constexpr double kExposure = 1.12;
 
@@ -23,7 +22,7 @@ class SmoothNormals {
  public:
   SmoothNormals(const TriangleMesh& mesh, double crease)
       : mesh_(mesh), faces_of_(mesh.vertices.size()) {
-    const double cosine = std::cos(crease * kRadians);
+    const double cosine = std::cos(crease * kDegree);
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
       cross_.push_back(FaceCross(mesh, f));
       normal_.push_back(cross_[f].normalized());

@@ -21,8 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostObjects = 100;  // of a figure; more would not be seen
-// Grid cells between an object and the sides of the unit cube, as `dataset import` leaves them.
-constexpr double kClearance = 2.0;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 void CheckLabels(const std::vector<std::string>& labels, std::size_t count) {
@@ -87,7 +85,7 @@ SdfFigure SdfFigureOf(const std::string& input, int resolution, int threads) {
   figure.name = DisplayName(object.name);
   figure.grid = UnitCubeGrid(resolution);
   const BoundingBox box = Bounds(object.mesh);
-  const double scale = (1.0 - 2.0 * kClearance * figure.grid.spacing) / box.Extent().maxCoeff();
+  const double scale = (1.0 - 2.0 * kFreeCells * figure.grid.spacing) / box.Extent().maxCoeff();
   figure.original = Transformed(object.mesh, scale, -scale * box.Center());
   MeshToSdf(figure.original, &figure.grid);
   figure.remeshed = Remesh(figure.grid).mesh;

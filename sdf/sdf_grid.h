@@ -27,6 +27,10 @@ struct SdfGrid {
   }
 };
 
+// Cells that stay free between a shape and each side of its grid: prior sets, imported meshes and
+// figures.
+inline constexpr double kFreeCells = 2.0;
+
 // The standard grid of n^3 nodes over the unit cube, values zero.
 SdfGrid UnitCubeGrid(int n = 32);
 

@@ -10,7 +10,7 @@
 namespace antigrasp {
 namespace {
 
-constexpr double kGap = 10.0, kBorder = 4.0;       // points
+constexpr double kPanelGap = 10.0;                 // points
 constexpr double kBeneath = 24.0, kLegend = 22.0;  // below an object, below all
 constexpr double kRoom = 1.24;                     // of a picture about its object, for the axes
 constexpr double kBeyond = 0.14;                   // of the half side: an axis beyond a contact
@@ -66,8 +66,8 @@ std::vector<Axis> AxesOf(const GraspedObject& object, const Camera& camera, int 
 }
 
 // Where everything stands: a grid of equal cells, the plot in the last one of the first row.
-struct Layout {
-  Layout(const GraspFigure& figure, const FigureOptions& options) {
+struct GraspLayout {
+  GraspLayout(const GraspFigure& figure, const FigureOptions& options) {
     const int objects = static_cast<int>(figure.objects.size());
     has_plot = !figure.histories.empty();
     const int panels = objects + (has_plot ? 1 : 0);
@@ -75,14 +75,14 @@ struct Layout {
     columns = std::max(columns, has_plot ? 2 : 1);
     rows = (panels + columns - 1) / columns;
     width = options.Width();
-    side = (width - 2.0 * kBorder - (columns - 1) * kGap) / columns;
+    side = (width - 2.0 * kBorder - (columns - 1) * kPanelGap) / columns;
     height = kBorder + rows * (side + kBeneath) + kLegend;
   }
   // Of object i; the plot pushes what follows it on.
   int Cell(int i) const { return has_plot && i >= columns - 1 ? i + 1 : i; }
   int Row(int i) const { return Cell(i) / columns; }
   Area CellArea(int cell) const {
-    return {kBorder + (cell % columns) * (side + kGap),
+    return {kBorder + (cell % columns) * (side + kPanelGap),
             kBorder + (cell / columns) * (side + kBeneath), side, side};
   }
   int columns = 1, rows = 1;
@@ -91,7 +91,7 @@ struct Layout {
 };
 
 // One scale for the objects of a row: before and after stay comparable.
-void ShareScaleInRows(const Layout& layout, std::vector<Panel>* panels) {
+void ShareScaleInRows(const GraspLayout& layout, std::vector<Panel>* panels) {
   std::vector<double> largest(static_cast<std::size_t>(layout.rows) + 1, 0.0);
   const auto row = [&](std::size_t i) {
     return static_cast<std::size_t>(layout.Row(static_cast<int>(i)));
@@ -102,7 +102,7 @@ void ShareScaleInRows(const Layout& layout, std::vector<Panel>* panels) {
   for (std::size_t i = 0; i < panels->size(); ++i) (*panels)[i].camera.half_side = largest[row(i)];
 }
 
-std::vector<Panel> MakePanels(const GraspFigure& figure, const Layout& layout,
+std::vector<Panel> MakePanels(const GraspFigure& figure, const GraspLayout& layout,
                               const FigureOptions& options) {
   std::vector<Panel> panels(figure.objects.size());
   for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -209,7 +209,7 @@ void DrawHistories(Canvas* canvas, const Area& cell, const std::vector<PairHisto
 
 void WriteGraspFigure(const std::filesystem::path& path, const GraspFigure& figure,
                       const FigureOptions& options) {
-  const Layout layout(figure, options);
+  const GraspLayout layout(figure, options);
   const std::vector<Panel> panels = MakePanels(figure, layout, options);
   const QualityRange range(panels);
   WritePage(path, {layout.width, layout.height, options.dpi}, [&](Canvas* canvas) {

@@ -14,7 +14,7 @@
 namespace antigrasp {
 namespace {
 
-constexpr double kMostPixels = 30000.0;  // a side; Cairo's own limit is 32,767
+constexpr double kLongestSide = 30000.0;  // pixels; Cairo's own limit is 32,767
 constexpr double kPointsPerInch = 72.0;
 
 std::string Extension(const std::filesystem::path& path) {
@@ -89,7 +89,7 @@ void CheckPage(const std::filesystem::path& path, const PageSize& size) {
     throw InputError("unknown kind of picture", path.string(), "a name that ends in .svg or .png");
   }
   const double longest = std::max(size.width, size.height) * size.dpi / kPointsPerInch;
-  if (extension == ".png" && longest > kMostPixels) {
+  if (extension == ".png" && longest > kLongestSide) {
     throw InputError("a picture " + std::to_string(std::lround(longest)) + " pixels long",
                      path.string(), "at most 30000 pixels a side");
   }

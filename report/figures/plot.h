@@ -47,6 +47,7 @@ class Plot {
   Scale x_, y_;
 };
 
+inline constexpr double kBorder = 4.0;  // points around every figure
 inline constexpr double kLeftOfPlot = 32.0;
 inline constexpr double kBelowPlot = 24.0;
 inline constexpr double kTickText = 6.0;  // points

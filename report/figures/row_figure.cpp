@@ -11,31 +11,31 @@
 namespace antigrasp {
 namespace {
 
-constexpr double kBorder = 4.0, kGap = 4.0;  // points
-constexpr double kLabel = 12.0;              // the rows' labels, upward
-constexpr double kTitles = 12.0;             // the columns' titles and the legend
-constexpr double kCaption = 10.0;            // beneath an example
+constexpr double kExampleGap = 4.0;  // points
+constexpr double kLabel = 12.0;      // the rows' labels, upward
+constexpr double kTitles = 12.0;     // the columns' titles and the legend
+constexpr double kCaption = 10.0;    // beneath an example
 constexpr double kRowGap = 6.0;
 constexpr double kLargestSide = 120.0;  // of an example
 constexpr double kPlotShare = 0.36;     // of the page's width, at least
 
-struct Layout {
-  Layout(const RowFigure& figure, const FigureOptions& options) {
+struct RowLayout {
+  RowLayout(const RowFigure& figure, const FigureOptions& options) {
     std::size_t most = 1;
     for (const FigureRow& row : figure.rows) most = std::max(most, row.examples.size());
     columns = static_cast<int>(most);
     width = options.Width();
     const double pictures = width * (1.0 - kPlotShare) - kBorder - kLabel - kLeftOfPlot - 6.0;
-    side = std::clamp((pictures - (columns - 1) * kGap) / columns, 20.0, kLargestSide);
+    side = std::clamp((pictures - (columns - 1) * kExampleGap) / columns, 20.0, kLargestSide);
     pitch = side + kCaption + kRowGap;
     rows = static_cast<int>(figure.rows.size());
     height = kBorder + kTitles + rows * pitch + kBelowPlot - kRowGap;
   }
   Area Example(int row, int column) const {
-    return {kBorder + kLabel + column * (side + kGap), Top(row), side, side};
+    return {kBorder + kLabel + column * (side + kExampleGap), Top(row), side, side};
   }
   Area PlotArea(int row) const {
-    const double left = kBorder + kLabel + columns * (side + kGap) + kLeftOfPlot + 2.0;
+    const double left = kBorder + kLabel + columns * (side + kExampleGap) + kLeftOfPlot + 2.0;
     return {left, Top(row), width - left - kBorder - 4.0, side + kCaption};
   }
   double Top(int row) const { return kBorder + kTitles + row * pitch; }
@@ -46,7 +46,7 @@ struct Layout {
 // Pictures by row and column.
 using Pictures = std::vector<std::vector<RgbaImage>>;
 
-Pictures RenderExamples(const RowFigure& figure, const Layout& layout,
+Pictures RenderExamples(const RowFigure& figure, const RowLayout& layout,
                         const FigureOptions& options) {
   struct Task {
     std::size_t row, column;
@@ -150,7 +150,7 @@ void DrawLegend(Canvas* canvas, const Area& plot, const RowFigure& figure) {
   canvas->Text(figure.reference_name, {x + 10.0, base}, style);
 }
 
-void DrawRow(Canvas* canvas, const Layout& layout, const FigureRow& row, int index,
+void DrawRow(Canvas* canvas, const RowLayout& layout, const FigureRow& row, int index,
              const std::vector<RgbaImage>& pictures) {
   const TextStyle label{7.5, kInk, Align::kMiddle, true, true};
   canvas->Text(canvas->Shortened(row.label, layout.pitch, label),
@@ -168,7 +168,7 @@ void DrawRow(Canvas* canvas, const Layout& layout, const FigureRow& row, int ind
 
 void WriteRowFigure(const std::filesystem::path& path, const RowFigure& figure,
                     const FigureOptions& options) {
-  const Layout layout(figure, options);
+  const RowLayout layout(figure, options);
   const Pictures pictures = RenderExamples(figure, layout, options);
   const Distributions all(figure.rows);
   WritePage(path, {layout.width, layout.height, options.dpi}, [&](Canvas* canvas) {

@@ -11,7 +11,7 @@
 namespace antigrasp {
 namespace {
 
-constexpr double kBorder = 4.0, kGap = 12.0;       // points
+constexpr double kGridGap = 12.0;                  // points
 constexpr double kBeneath = 24.0, kLegend = 16.0;  // below the panels
 constexpr int kTile = 16;                          // pixels of a node's side
 
@@ -59,10 +59,10 @@ void DrawWords(Canvas* canvas, const Area& area, const std::string& title,
                const std::string& words) {
   const double middle = area.x + 0.5 * area.width;
   const TextStyle first{7.5, kInk, Align::kMiddle, true}, second{7.0, kInk, Align::kMiddle};
-  canvas->Text(canvas->Shortened(title, area.width + kGap, first), {middle, area.Bottom() + 10.0},
-               first);
-  canvas->Text(canvas->Shortened(words, area.width + kGap, second), {middle, area.Bottom() + 19.5},
-               second);
+  canvas->Text(canvas->Shortened(title, area.width + kGridGap, first),
+               {middle, area.Bottom() + 10.0}, first);
+  canvas->Text(canvas->Shortened(words, area.width + kGridGap, second),
+               {middle, area.Bottom() + 19.5}, second);
 }
 
 void DrawSection(Canvas* canvas, const Area& area, const SdfSlice& slice, const SliceRange& range,
@@ -89,9 +89,11 @@ void DrawSection(Canvas* canvas, const Area& area, const SdfSlice& slice, const 
 void WriteSdfFigure(const std::filesystem::path& path, const SdfFigure& figure,
                     const FigureOptions& options) {
   const double width = options.Width();
-  const double side = (width - 2.0 * kBorder - 2.0 * kGap) / 3.0;
+  const double side = (width - 2.0 * kBorder - 2.0 * kGridGap) / 3.0;
   const double height = kBorder + side + kBeneath + kLegend;
-  const auto panel = [&](int k) { return Area{kBorder + k * (side + kGap), kBorder, side, side}; };
+  const auto panel = [&](int k) {
+    return Area{kBorder + k * (side + kGridGap), kBorder, side, side};
+  };
 
   const Camera camera = FigureCamera(figure.original, options.view);
   View view = options.view;

@@ -30,10 +30,6 @@ using shapes::TempFolder;
 
 const std::string kSmoke = std::string(ANTIGRASP_CONFIGS) + "/smoke.toml";
 
-int FilesIn(const fs::path& folder) {
-  return static_cast<int>(std::distance(fs::directory_iterator(folder), {}));
-}
-
 // The first words below "Subcommands:".
 std::vector<std::string> CommandsIn(const std::string& help) {
   std::istringstream lines(help.substr(std::min(help.size(), help.find("Subcommands:"))));
@@ -114,7 +110,7 @@ TEST(Cli, RefusesBadInputInOneLineAndWritesNothing) {
   folder.Write("range.toml", "[gan]\n\nbatch = 0\n");
   folder.Write("broken.toml", "[gan\n");
   folder.Write("not.h5", "no hdf5 at all");
-  const int before = FilesIn(folder.path());
+  const int before = shapes::CountFiles(folder.path());
   ExpectRefused("train " + dir + "bad.toml --out " + dir + "run", "bad.toml:2");
   ExpectRefused("train " + dir + "range.toml --out " + dir + "run", "range.toml:3");
   ExpectRefused("train " + dir + "broken.toml --out " + dir + "run", "broken.toml:1");
@@ -139,7 +135,7 @@ TEST(Cli, RefusesBadInputInOneLineAndWritesNothing) {
   ExpectRefused("dataset make cylinders --out " + dir + "no/x.h5", "folder");
   ExpectRefused("dataset make cylinders --count 2 --out " + dir, "a file name, not a folder");
   ExpectRefused("dataset import " + dir + " --out " + dir + "x.h5", "");
-  EXPECT_EQ(FilesIn(folder.path()), before);
+  EXPECT_EQ(shapes::CountFiles(folder.path()), before);
 }
 
 TEST(Cli, ScoresAreEqualForAnyNumberOfThreadsAndDifferForAnotherSeed) {
@@ -276,13 +272,13 @@ TEST(Cli, QualityNamesABadRowAndWritesNothing) {
   folder.Write("bad.csv", header + good + "-0.02,0,0,-1,0,0,0.02,oops,0,1,0,0,0,0,0\n");
   folder.Write("columns.csv", "id,p1x\na,1\n");
   folder.Write("good.csv", header + good);
-  const int before = FilesIn(folder.path());
+  const int before = shapes::CountFiles(folder.path());
   const std::string out = " --out " + dir + "out.csv";
   ExpectRefused("quality " + dir + "bad.csv" + out, "bad.csv:3): expected a finite number");
   ExpectRefused("quality " + dir + "columns.csv" + out, "no column p1y p1z n1x");
   ExpectRefused("quality " + dir + "good.csv --out " + dir + "no/out.csv", "folder");
   ExpectRefused("quality " + dir + "good.csv --torsion rubber" + out, "contact.torsion");
-  EXPECT_EQ(FilesIn(folder.path()), before);
+  EXPECT_EQ(shapes::CountFiles(folder.path()), before);
   const Outcome printed = Antigrasp("quality " + dir + "good.csv");
   EXPECT_EQ(printed.code, 0);
   EXPECT_NE(printed.text.find("\n1,0.03909"), std::string::npos) << printed.text;
@@ -296,7 +292,7 @@ TEST(Cli, ExportsSolidsInMillimetresAndLeavesTheRestOut) {
   const Outcome outcome =
       Antigrasp("export " + dir + "ball.ply " + dir + "open.ply --size-mm 80 --out " + dir + "out");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
-  EXPECT_EQ(FilesIn(folder / "out"), 2);  // the ball and print.csv
+  EXPECT_EQ(shapes::CountFiles(folder / "out"), 2);  // the ball and print.csv
   const TriangleMesh mesh = ReadMesh(folder / "out/ball.stl");
   EXPECT_NEAR(Bounds(mesh).Extent().maxCoeff(), 80.0, 1e-4);
   EXPECT_NEAR(Bounds(mesh).min.z(), 0.0, 1e-4);

@@ -23,10 +23,6 @@ using cli::ExpectRefused;
 using cli::Outcome;
 using shapes::TempFolder;
 
-int FilesIn(const fs::path& folder) {
-  return static_cast<int>(std::distance(fs::recursive_directory_iterator(folder), {}));
-}
-
 // Runs the figure twice, with one thread and with two: the same bytes, well-formed.
 void ExpectSvg(const TempFolder& folder, const std::string& arguments) {
   const std::string out = " --dpi 60 --out " + folder.path().string() + "/";
@@ -150,7 +146,7 @@ TEST(FigureCli, RefusesBadInputInOneLineAndWritesNothing) {
   const std::string dir = folder.path().string() + "/";
   WriteMesh(folder / "cube.stl", shapes::Cube());
   folder.Write("bad.csv", "object,iteration,pairs\n");
-  const int before = FilesIn(folder.path());
+  const int before = shapes::CountFiles(folder.path());
   ExpectRefused("figure", "");
   ExpectRefused("figure 5 " + dir + "cube.stl --out " + dir + "x.svg", "");
   ExpectRefused("figure 1 " + dir + "cube.stl", "--out");
@@ -163,7 +159,7 @@ TEST(FigureCli, RefusesBadInputInOneLineAndWritesNothing) {
   ExpectRefused("figure 1 " + dir + "cube.stl --history " + dir + "bad.csv --out " + dir + "x.svg",
                 "no rows");
   ExpectRefused("figure 2 " + dir + "cube.stl --axis w --out " + dir + "x.svg", "w");
-  EXPECT_EQ(FilesIn(folder.path()), before);
+  EXPECT_EQ(shapes::CountFiles(folder.path()), before);
 }
 
 }  // namespace

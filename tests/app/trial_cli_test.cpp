@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "tests/app/run_binary.h"
@@ -14,13 +15,12 @@
 namespace antigrasp {
 namespace {
 
-using Rows = std::map<std::string, std::map<std::string, double>>;
+using Numbers = std::map<std::string, std::map<std::string, double>>;
 
-constexpr double kDegrees = 0.017453292519943295;
 constexpr double kZ2 = 1.959963984540054 * 1.959963984540054;  // of Wilson's interval
 
 // Rows by object and reading, "cube.stl full-cone"; every other field is a number.
-Rows Trial(const std::string& arguments) {
+Numbers Trial(const std::string& arguments) {
   const shapes::TempFolder folder;
   WriteMesh(folder / "cube.stl", shapes::Box({30.0, 30.0, 30.0}));
   const cli::Outcome outcome =
@@ -37,7 +37,7 @@ Rows Trial(const std::string& arguments) {
   std::istringstream names(line.substr(std::string("object,reading,").size()));
   std::vector<std::string> header;
   while (std::getline(names, name, ',')) header.push_back(name);
-  Rows rows;
+  Numbers rows;
   while (std::getline(lines, line)) {
     std::istringstream fields(line);
     std::string object, reading;
@@ -54,11 +54,11 @@ Rows Trial(const std::string& arguments) {
 // Without noise an execution is as planned: force closure where a grasp was found, held where it
 // holds as planned. A cube of 30 mm has grasps at its corners that close and have no epsilon.
 TEST(TrialTableCli, EveryColumnHoldsWhatItsNameSays) {
-  Rows rows = Trial("--min-epsilon 0 --num-grasps 8 --seed 3");
+  Numbers rows = Trial("--min-epsilon 0 --num-grasps 8 --seed 3");
   ASSERT_EQ(rows.size(), 2u);
   auto& half = rows["cube.stl half-angle"];
-  EXPECT_NEAR(half["friction"], std::tan(17.0 * kDegrees), 1e-15);
-  EXPECT_NEAR(rows["cube.stl full-cone"]["friction"], std::tan(8.5 * kDegrees), 1e-15);
+  EXPECT_NEAR(half["friction"], std::tan(17.0 * kDegree), 1e-15);
+  EXPECT_NEAR(rows["cube.stl full-cone"]["friction"], std::tan(8.5 * kDegree), 1e-15);
   EXPECT_EQ(half["poses"], 6.0);
   EXPECT_EQ(half["grasps"], 12.0);           // 3 series of 4
   EXPECT_GT(half["grasps"], half["found"]);  // so that no two are equal
@@ -77,7 +77,7 @@ TEST(TrialTableCli, EveryColumnHoldsWhatItsNameSays) {
 // All series alike: Wilson's interval of as many executions as there are series, 3. Of none it is
 // [0, z^2 / (3 + z^2)], of all [3 / (3 + z^2), 1].
 TEST(TrialTableCli, SharesOfNoneAndAllHaveTheirIntervals) {
-  Rows rows = Trial("--min-epsilon 1000 --num-grasps 40 --reading full-cone");
+  Numbers rows = Trial("--min-epsilon 1000 --num-grasps 40 --reading full-cone");
   ASSERT_EQ(rows.size(), 1u);
   auto& row = rows["cube.stl full-cone"];
   EXPECT_EQ(row["found"], 12.0);

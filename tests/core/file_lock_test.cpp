@@ -24,10 +24,6 @@ using shapes::ChildProcess;
 using shapes::TempFolder;
 using State = FileLock::State;
 
-int FilesIn(const fs::path& folder) {
-  return static_cast<int>(std::distance(fs::directory_iterator(folder), {}));
-}
-
 TEST(FileLock, IsOnePlaceAtATime) {
   const TempFolder folder;
   auto first = std::make_unique<FileLock>(folder / "lock");
@@ -52,7 +48,7 @@ TEST(FileLock, CreatesAFileOnlyWhenItMay) {
   const TempFolder folder;
   EXPECT_EQ(FileLock(folder / "lock", FileLock::Missing::kLeave).state(), State::kNone);
   EXPECT_EQ(FileLock(folder / "no/lock").state(), State::kNone);
-  EXPECT_EQ(FilesIn(folder.path()), 0);
+  EXPECT_EQ(shapes::CountFiles(folder.path()), 0);
 }
 
 TEST(FileLock, DoesNotFollowALinkToAnotherFile) {
@@ -92,7 +88,7 @@ TEST(FolderLock, LeavesNothing) {
     EXPECT_TRUE(lock.held());
     EXPECT_EQ(ReadFile(folder / ".lock").substr(0, 8), "process ");
   }
-  EXPECT_EQ(FilesIn(folder.path()), 0);
+  EXPECT_EQ(shapes::CountFiles(folder.path()), 0);
 }
 
 // The line of one who was killed is not in front of, or behind, that of the next.
@@ -117,23 +113,23 @@ TEST(AbandonedFiles, AreRemovedOnceTheirWriterIsDead) {
   ChildProcess writer([&] { HalfWrite(folder / "a.pt"); });
   ASSERT_TRUE(writer.alive());
   EXPECT_EQ(RemoveAbandonedFiles(folder.path()), 0);
-  EXPECT_EQ(FilesIn(folder.path()), 1);
+  EXPECT_EQ(shapes::CountFiles(folder.path()), 1);
   writer.Kill();
-  EXPECT_EQ(FilesIn(folder.path()), 1);
+  EXPECT_EQ(shapes::CountFiles(folder.path()), 1);
   EXPECT_EQ(RemoveAbandonedFiles(folder.path()), 1);
-  EXPECT_EQ(FilesIn(folder.path()), 0);
+  EXPECT_EQ(shapes::CountFiles(folder.path()), 0);
 }
 
 TEST(AbandonedFiles, AreTakenOverByTheNextWriterOfTheSameFile) {
   const TempFolder folder;
   ChildProcess writer([&] { HalfWrite(folder / "a.pt"); });
   writer.Kill();
-  ASSERT_EQ(FilesIn(folder.path()), 1);
+  ASSERT_EQ(shapes::CountFiles(folder.path()), 1);
   {
     const AtomicFile next(folder / "a.pt");
     EXPECT_EQ(ReadFile(next.temp_path()), "");  // also for one who appends
   }
-  EXPECT_EQ(FilesIn(folder.path()), 0);
+  EXPECT_EQ(shapes::CountFiles(folder.path()), 0);
 }
 
 TEST(AbandonedFiles, AreNotTakenFromALivingWriter) {
@@ -142,7 +138,7 @@ TEST(AbandonedFiles, AreNotTakenFromALivingWriter) {
   WriteFileAtomic(folder / "a.pt", "whole");
   EXPECT_EQ(ReadFile(folder / "a.pt"), "whole");
   EXPECT_EQ(ReadFile(folder / ".a.pt.antigrasp.tmp"), "half a checkpo");
-  EXPECT_EQ(FilesIn(folder.path()), 2);
+  EXPECT_EQ(shapes::CountFiles(folder.path()), 2);
 }
 
 TEST(AbandonedFiles, AreNobodyElses) {
@@ -161,7 +157,7 @@ TEST(AbandonedFiles, AreNobodyElses) {
     folder.Write(name, "ours");
   }
   EXPECT_EQ(RemoveAbandonedFiles(folder.path()), 3);
-  EXPECT_EQ(FilesIn(folder.path()), static_cast<int>(others.size()) + 3);
+  EXPECT_EQ(shapes::CountFiles(folder.path()), static_cast<int>(others.size()) + 3);
   EXPECT_EQ(RemoveAbandonedFiles(folder / "missing"), 0);
 }
 

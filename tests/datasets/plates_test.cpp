@@ -21,8 +21,9 @@ Meshes Plates(const std::vector<double>& heights) {
   return plates;
 }
 
-SurfaceComparison Compare(const std::vector<double>& samples, const std::vector<double>& reference,
-                          const std::vector<double>& training = {}) {
+SurfaceComparison ComparePlates(const std::vector<double>& samples,
+                                const std::vector<double>& reference,
+                                const std::vector<double>& training = {}) {
   SurfaceComparisonOptions options;
   options.points = 256;
   return CompareSurfaces(Plates(samples), Plates(reference), Plates(training), options);
@@ -32,7 +33,7 @@ SurfaceComparison Compare(const std::vector<double>& samples, const std::vector<
 constexpr double kSideways = 1e-3;
 
 TEST(CompareSurfaces, OfPlatesIsByHand) {
-  const SurfaceComparison found = Compare({0, 9, 12}, {10, 20, 40});
+  const SurfaceComparison found = ComparePlates({0, 9, 12}, {10, 20, 40});
   EXPECT_DOUBLE_EQ(found.sets.coverage, 1.0 / 3);  // all three are nearest to 10
   EXPECT_NEAR(found.sets.matching, (1 + 8 + 28) / 3.0, kSideways);
   EXPECT_NEAR(found.sets.to_reference, (10 + 1 + 2) / 3.0, kSideways);
@@ -54,14 +55,14 @@ double VendiOfTwo(double k) {
 }
 
 TEST(CompareSurfaces, ScalesBothVendiScoresByHalfTheReferencesMedian) {
-  const SurfaceComparison found = Compare({0, 4}, {0, 8});  // scale 8 / 2
+  const SurfaceComparison found = ComparePlates({0, 4}, {0, 8});  // scale 8 / 2
   EXPECT_NEAR(found.samples.vendi, VendiOfTwo(std::exp(-0.5)), 1e-3);
   EXPECT_NEAR(found.reference.vendi, VendiOfTwo(std::exp(-2.0)), 1e-3);
 }
 
 TEST(CompareSurfaces, TakesTheFloorsOffTheSpreadsAlone) {
   // Four samplings of one plate: 256 points a unit square miss each other by about 1/32.
-  const SurfaceComparison same = Compare({0, 0}, {0, 0});
+  const SurfaceComparison same = ComparePlates({0, 0}, {0, 0});
   EXPECT_GT(same.sets.matching, 0.028);
   EXPECT_LT(same.spread.samples.mean_distance, 0.015);
   EXPECT_LT(same.spread.reference.mean_distance, 0.015);
@@ -69,14 +70,14 @@ TEST(CompareSurfaces, TakesTheFloorsOffTheSpreadsAlone) {
 
 TEST(CompareSurfaces, OfCopiedPlatesIsByHand) {
   // To the nearest of 0 and 50: 1, 9, 12 and 10, 20, 10, of which 10 is the median.
-  const Memorisation found = *Compare({1, 9, 12}, {10, 20, 40}, {0, 50}).memorisation;
+  const Memorisation found = *ComparePlates({1, 9, 12}, {10, 20, 40}, {0, 50}).memorisation;
   EXPECT_NEAR(found.samples, (1 + 9 + 12) / 3.0, kSideways);
   EXPECT_NEAR(found.reference, (10 + 20 + 10) / 3.0, kSideways);
   EXPECT_DOUBLE_EQ(found.nearer, 2.0 / 3);
 }
 
 TEST(CompareSurfaces, MeasuresCopiesByTheReferencesLowerMedian) {
-  const Memorisation found = *Compare({1, 2, 3, 4}, {1.5, 2.5, 3.5, 10}, {0}).memorisation;
+  const Memorisation found = *ComparePlates({1, 2, 3, 4}, {1.5, 2.5, 3.5, 10}, {0}).memorisation;
   EXPECT_DOUBLE_EQ(found.nearer, 2.0 / 4);  // 1 and 2; 3 is nearer than the upper one, 3.5
 }
 
@@ -154,8 +155,8 @@ TEST(CompareSurfaces, NamesItsPhasesAndCountsThem) {
 }
 
 TEST(CompareSurfaces, RefusesSetsOfOneShapeOrOfOtherSizes) {
-  EXPECT_THROW(Compare({0}, {1}), std::logic_error);
-  EXPECT_THROW(Compare({0, 1}, {1, 2, 3}), std::logic_error);
+  EXPECT_THROW(ComparePlates({0}, {1}), std::logic_error);
+  EXPECT_THROW(ComparePlates({0, 1}, {1, 2, 3}), std::logic_error);
 }
 
 TEST(SurfaceComparisonOptions, TakeAThousandPointsBySeedOne) {

@@ -22,7 +22,7 @@ ModelOptions Residual() {
   return options;
 }
 
-torch::Tensor Normal(at::IntArrayRef shape, std::uint64_t stream) {
+torch::Tensor Noise(at::IntArrayRef shape, std::uint64_t stream) {
   RngStream rng(9, "residual_test", stream);
   return NormalTensor(shape, 1.0, &rng);
 }
@@ -32,7 +32,7 @@ void Scatter(torch::nn::Module* module, double sd) {
   torch::NoGradGuard no_grad;
   std::uint64_t stream = 100;
   for (auto& item : module->named_parameters()) {
-    item.value().add_(sd * Normal(item.value().sizes(), stream++));
+    item.value().add_(sd * Noise(item.value().sizes(), stream++));
   }
 }
 
@@ -44,7 +44,7 @@ TEST(ResidualBlocks, OfTheDiscriminatorAddAConvolutionOfTheCutValuesBeforeTheCut
   Discriminator discriminator(Residual());
   Scatter(discriminator.get(), 0.1);
   const auto parameters = discriminator->named_parameters();
-  const torch::Tensor grid = Normal({3, 1, 32, 32, 32}, 1);
+  const torch::Tensor grid = Noise({3, 1, 32, 32, 32}, 1);
   torch::Tensor x = grid;
   for (int i = 1; i <= 4; ++i) {
     const std::string name = std::to_string(i);
@@ -68,7 +68,7 @@ TEST(ResidualBlocks, OfTheGeneratorAddANormalisedConvolutionBeforeTheCut) {
     return torch::batch_norm(x, parameters[name + ".weight"], parameters[name + ".bias"], {}, {},
                              true, 0.1, 1e-5, false);
   };
-  const torch::Tensor z = Normal({4, 5}, 2);
+  const torch::Tensor z = Noise({4, 5}, 2);
   torch::Tensor x = torch::linear(z, parameters["project.weight"]).view({4, -1, 2, 2, 2});
   x = torch::relu(norm(x, "norm0"));
   for (int i = 1; i <= 3; ++i) {
@@ -126,7 +126,7 @@ TEST(Generator, FoldingKeepsTheEpsilonOfSmallVariances) {
   options.batch_norm = false;
   Generator without(options);
   without->TakeFolded(*with);
-  const torch::Tensor z = Normal({4, 5}, 3), expected = with(z);
+  const torch::Tensor z = Noise({4, 5}, 3), expected = with(z);
   EXPECT_LT(LargestDifference(without(z), expected), 1e-5);
   EXPECT_GT((expected - std::tanh(-0.5)).abs().max().item<double>(), 1e-3);
   // 1 / sqrt(2e-5 + 1e-5) and -1e-3 times that, both times 0.01.

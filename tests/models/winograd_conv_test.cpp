@@ -16,7 +16,7 @@
 namespace antigrasp {
 namespace {
 
-torch::Tensor Normal(at::IntArrayRef shape, std::uint64_t stream) {
+torch::Tensor Gaussian(at::IntArrayRef shape, std::uint64_t stream) {
   RngStream rng(11, "winograd_conv_test", stream);
   return NormalTensor(shape, 1.0, &rng);
 }
@@ -30,14 +30,15 @@ struct Layer {
 std::vector<torch::Tensor> Results(const Layer& layer, at::ScalarType type) {
   const std::int64_t h = layer.side / 2 + 1;
   const torch::Tensor cells =
-      Normal({layer.count, 8 * layer.in, h, h, h}, 1).to(type).requires_grad_();
-  const torch::Tensor weight = Normal({layer.out, layer.in, 4, 4, 4}, 2).to(type).requires_grad_();
-  const torch::Tensor down = DownConv(cells, weight, Normal({layer.out}, 3).to(type));
-  const torch::Tensor values = Normal(down.sizes(), 4).to(type).requires_grad_();
+      Gaussian({layer.count, 8 * layer.in, h, h, h}, 1).to(type).requires_grad_();
+  const torch::Tensor weight =
+      Gaussian({layer.out, layer.in, 4, 4, 4}, 2).to(type).requires_grad_();
+  const torch::Tensor down = DownConv(cells, weight, Gaussian({layer.out}, 3).to(type));
+  const torch::Tensor values = Gaussian(down.sizes(), 4).to(type).requires_grad_();
   const torch::Tensor up = UpConv(values, weight);
   std::vector<torch::Tensor> results = {down, up};
   for (const auto& [output, input] : {std::array{down, cells}, {up, values}}) {
-    const torch::Tensor factor = Normal(output.sizes(), 5).to(type);
+    const torch::Tensor factor = Gaussian(output.sizes(), 5).to(type);
     for (const auto& gradient : torch::autograd::grad({(output * factor).sum()}, {input, weight})) {
       results.push_back(gradient);
     }
@@ -90,10 +91,10 @@ TEST(WinogradConv, ItsAvx512KernelGivesTheBitsOfItsAvx2Kernel) {
   constexpr std::int64_t kDepth = 24, kPanel = winograd::kPanel;
   for (const std::int64_t rows : {4, 8, 12, 60, 64}) {
     for (const std::int64_t width : {16, 32, 48}) {
-      const torch::Tensor left = Normal({rows, kDepth}, 1);
-      const torch::Tensor right = Normal({width / kPanel, kDepth, kPanel}, 2);
+      const torch::Tensor left = Gaussian({rows, kDepth}, 1);
+      const torch::Tensor right = Gaussian({width / kPanel, kDepth, kPanel}, 2);
       for (const bool first : {true, false}) {
-        const torch::Tensor before = Normal({rows, width}, 3);
+        const torch::Tensor before = Gaussian({rows, width}, 3);
         torch::Tensor narrow = before.clone(), wide = before.clone();
         winograd::ProductBlock block = {rows,
                                         kDepth,

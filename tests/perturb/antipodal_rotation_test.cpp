@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/mesh/inspect.h"
 #include "antigrasp/perturb/decimate.h"
 #include "antigrasp/perturb/mesh_change.h"
@@ -16,10 +16,9 @@ namespace antigrasp {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180;
 
-PerturbResult Perturbed(const TriangleMesh& mesh, const RotationOptions& options,
-                        const PerturbOptions& common = {}, std::uint64_t seed = 1) {
+PerturbResult Rotated(const TriangleMesh& mesh, const RotationOptions& options,
+                      const PerturbOptions& common = {}, std::uint64_t seed = 1) {
   RngStream rng(seed, "perturb");
   return PerturbByRotation(mesh, PairLimitsOf(common, 0.5, 1.0), common, options, &rng);
 }
@@ -73,7 +72,7 @@ TEST(PerturbByRotation, LowersTheNumberOfPairsAndKeepsASolidWithinTheGuard) {
       RotationOptions options;
       options.beta = beta;
       options.iterations_per_face = 10;
-      const PerturbResult result = Perturbed(mesh, options);
+      const PerturbResult result = Rotated(mesh, options);
       EXPECT_EQ(result.failure, "");
       EXPECT_LE(result.mesh.faces.size(), 350u);
       EXPECT_GT(result.moved, 0);
@@ -89,7 +88,7 @@ TEST(PerturbByRotation, UncheckedItIsTheLiteralAlgorithmAndMayBreakTheMesh) {
   RotationOptions options;
   options.beta = 0.3;
   options.iterations_per_face = 10;
-  const PerturbResult result = Perturbed(shapes::Cylinder(1.0, 3.0, 64), options, common);
+  const PerturbResult result = Rotated(shapes::Cylinder(1.0, 3.0, 64), options, common);
   EXPECT_TRUE(result.failure.starts_with("after: ")) << result.failure;
   EXPECT_EQ(result.refused[static_cast<std::size_t>(MoveVerdict::kIntersects)], 0);
 }
@@ -104,18 +103,18 @@ TEST(PerturbByRotation, TurnsNothingOnceAllPairsAreAsFarApartAsTheCone) {
   PerturbOptions common;
   common.cone = 10.0;
   common.max_width = 0.5;  // not the two ends, which are parallel
-  const PerturbResult result = Perturbed(wedge, {}, common);
+  const PerturbResult result = Rotated(wedge, {}, common);
   EXPECT_EQ(result.moved, 0);
   EXPECT_GT(result.no_gain, 0);
 }
 
 TEST(PerturbByRotation, IsTheSameForTheSameStream) {
   const TriangleMesh mesh = shapes::Torus(1.0, 0.4, 24, 12);
-  EXPECT_EQ(Perturbed(mesh, {}).mesh.vertices, Perturbed(mesh, {}).mesh.vertices);
-  EXPECT_NE(Perturbed(mesh, {}).mesh.vertices, Perturbed(mesh, {}, {}, 2).mesh.vertices);
+  EXPECT_EQ(Rotated(mesh, {}).mesh.vertices, Rotated(mesh, {}).mesh.vertices);
+  EXPECT_NE(Rotated(mesh, {}).mesh.vertices, Rotated(mesh, {}, {}, 2).mesh.vertices);
   RotationOptions none;
   none.iterations_per_face = 0.0;
-  const PerturbResult decimated = Perturbed(mesh, none);
+  const PerturbResult decimated = Rotated(mesh, none);
   EXPECT_EQ(decimated.mesh.vertices, decimated.start.vertices);
   EXPECT_EQ(decimated.failure, "");
 }

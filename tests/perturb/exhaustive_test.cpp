@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/perturb/draw_direction.h"
 #include "antigrasp/perturb/face_pairs.h"
 #include "tests/perturb/perturbed_shapes.h"
@@ -13,8 +13,6 @@
 
 namespace antigrasp {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 PerturbResult Perturbed(const TriangleMesh& mesh, const PerturbOptions& common,
                         const ExhaustiveOptions& options, std::uint64_t seed = 1) {

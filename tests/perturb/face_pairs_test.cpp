@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/perturb/cone.h"
 #include "antigrasp/perturb/validity.h"
 #include "tests/perturb/perturbed_shapes.h"
@@ -15,7 +16,6 @@ namespace antigrasp {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180;
 
 std::vector<FacePair> ByAllPairs(const TriangleMesh& mesh, const PairLimits& limits) {
   const AntipodalTest test(limits);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/perturb/search.h"
 #include "antigrasp/perturb/search_objective.h"
 #include "antigrasp/perturb/search_projection.h"
@@ -15,7 +16,6 @@ namespace antigrasp {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180;
 
 double Phi(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/perturb/antipodal_rotation.h"
 #include "antigrasp/perturb/draw_direction.h"
 #include "antigrasp/perturb/exhaustive.h"
@@ -19,7 +20,6 @@ namespace antigrasp {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180;
 
 TEST(PairLimits, AreTheConeInRadiansAndTheWidthInTheMeshsUnit) {
   PerturbOptions options;

@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/mesh/inspect.h"
 #include "tests/support/shapes.h"
 
@@ -13,8 +13,6 @@ namespace antigrasp {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 PolyhedronOptions Options(double phi) {
   PolyhedronOptions options;
@@ -25,7 +23,7 @@ PolyhedronOptions Options(double phi) {
 }
 
 TEST(SmallestAntipodality, IsKnownForTheRegularSolids) {
-  const double expected[] = {0.0, std::acos(1.0 / 3.0) / kRadians, 0.0, 0.0, 0.0, 0.0};
+  const double expected[] = {0.0, std::acos(1.0 / 3.0) / kDegree, 0.0, 0.0, 0.0, 0.0};
   for (int kind = 0; kind < 6; ++kind) {
     const TriangleMesh mesh = PlainPolyhedron(static_cast<Polyhedron>(kind), 2.0);
     EXPECT_NEAR(SmallestAntipodality(mesh).degrees, expected[kind], 1e-7)
@@ -38,14 +36,14 @@ TEST(SmallestAntipodality, IsKnownForTheRegularSolids) {
 TEST(SmallestAntipodality, NamesThePairAndLeavesOutFacesWithoutArea) {
   TriangleMesh mesh = shapes::Tetrahedron();  // three faces at right angles and a slanted one
   const Antipodality antipodality = SmallestAntipodality(mesh);
-  EXPECT_NEAR(antipodality.degrees, std::acos(1.0 / std::sqrt(3.0)) / kRadians, 1e-12);
+  EXPECT_NEAR(antipodality.degrees, std::acos(1.0 / std::sqrt(3.0)) / kDegree, 1e-12);
   EXPECT_EQ(antipodality.second, 3u);
   // Pulled up the slope is nearest to the bottom, face 0.
   TriangleMesh flat = mesh;
   flat.vertices[3].z() = 0.5;
   EXPECT_EQ(SmallestAntipodality(flat).first, 0u);
   EXPECT_EQ(SmallestAntipodality(flat).second, 3u);
-  EXPECT_NEAR(SmallestAntipodality(flat).degrees, std::acos(2.0 / std::sqrt(6.0)) / kRadians,
+  EXPECT_NEAR(SmallestAntipodality(flat).degrees, std::acos(2.0 / std::sqrt(6.0)) / kDegree,
               1e-12);  // slope along (1, 1, 2)
   mesh.faces.push_back({0, 1, 1});
   EXPECT_EQ(SmallestAntipodality(mesh).degrees, antipodality.degrees);
@@ -109,7 +107,7 @@ TEST(AdversarialCube, HasThePapersPyramidsAndTheirAngle) {
     EXPECT_EQ(cube.mesh.faces.size(), 18u);
     EXPECT_TRUE(Inspect(cube.mesh).IsSolid());
     EXPECT_TRUE(IsConvex(cube.mesh));
-    const double height = 0.5 * std::tan(phi * kRadians);
+    const double height = 0.5 * std::tan(phi * kDegree);
     EXPECT_NEAR(cube.largest_move, height, 1e-12);
     EXPECT_NEAR(cube.rms_move, height * std::sqrt(3.0 / 11.0), 1e-12);
     // The cube and three pyramids of a third of base times height.
@@ -139,7 +137,7 @@ TEST(AdversarialPolyhedron, ReachesTheAngleWithoutConcavities) {
       EXPECT_TRUE(IsConvex(solid.mesh));
       EXPECT_EQ(solid.mesh.vertices.size(), PlainPolyhedron(kind, 1).vertices.size());
       // Opposite faces turn by about phi / 2 each.
-      EXPECT_LT(solid.rms_move, 0.6 * phi * kRadians);
+      EXPECT_LT(solid.rms_move, 0.6 * phi * kDegree);
       EXPECT_LE(solid.rms_move, solid.largest_move);
     }
   }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/mesh/inspect.h"
 #include "antigrasp/perturb/mesh_change.h"
 #include "tests/perturb/perturbed_shapes.h"
@@ -15,7 +15,6 @@ namespace antigrasp {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180;
 
 PerturbResult Perturbed(const TriangleMesh& mesh, const RandomPerturbOptions& options,
                         const PerturbOptions& common = {}, std::uint64_t seed = 1) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/prior_set.h"
 #include "antigrasp/mesh/inspect.h"
@@ -19,8 +20,6 @@ namespace antigrasp {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 Vector3d RandomVector(RngStream* rng) {
   const double x = rng->Normal(), y = rng->Normal();
@@ -156,7 +155,7 @@ TEST(TurnBack, BringsEveryNormalOfARoughAndOfATurnedOverMeshIntoItsCone) {
   TriangleMesh rough = start;
   for (Vector3d& v : rough.vertices) v *= 1.0 + 0.05 * rng.Normal();
   rough.vertices[17] *= -0.5;  // turns all faces around it over
-  for (const double angle : {2.0 * kRadians, 10.0 * kRadians, 30.0 * kRadians}) {
+  for (const double angle : {2.0 * kDegree, 10.0 * kDegree, 30.0 * kDegree}) {
     TriangleMesh mesh = rough;
     EXPECT_GT(LargestTurn(mesh, normals), angle);
     EXPECT_EQ(TurnBack(start, normals, angle, 1000, &mesh), 0);

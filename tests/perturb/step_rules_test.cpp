@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/perturb/antipodal_rotation.h"
 #include "antigrasp/perturb/exhaustive.h"
@@ -17,7 +17,6 @@ namespace antigrasp {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180;
 
 PerturbResult Perturbed(const TriangleMesh& mesh, const RandomPerturbOptions& options,
                         std::uint64_t seed = 1) {

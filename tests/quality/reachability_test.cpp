@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "antigrasp/core/angles.h"
 #include "tests/quality/reached_object.h"
 #include "tests/support/shapes.h"
 
@@ -10,7 +10,6 @@ namespace antigrasp {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Along x; the contacts' normals as on a sphere about `center`.
 Grasp AlongX(const Vector3d& center, double width) {

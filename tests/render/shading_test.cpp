@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include "antigrasp/core/angles.h"
 #include "antigrasp/render/render_mesh.h"
 #include "tests/support/shapes.h"
 
@@ -16,8 +16,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr Rgb kWhite = {255, 255, 255};
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr Rgb kBlank = {255, 255, 255};
 
 // From +x: y runs to the right, z up.
 View FromX() {
@@ -82,7 +81,7 @@ TEST(Shading, FacesThatTurnByLessThanTheCreaseAreShadedAsOne) {
     view.crease = crease;
     const Image image = RenderMesh(roof, view);
     std::set<Rgb> colors(image.pixels.begin(), image.pixels.end());
-    colors.erase(kWhite);
+    colors.erase(kBlank);
     return colors.size();
   };
   EXPECT_EQ(shades(31.0, View().crease), 2u);  // the default is 30 degrees
@@ -117,8 +116,8 @@ TEST(Shading, APixelIsTheMeanOfItsSamplesOverWhite) {
       int white = 0;
       for (const int i : {0, 1, 2, 3}) {
         const Rgb& sample = samples.At(2 * x + i % 2, 2 * y + i / 2);
-        white += sample == kWhite ? 1 : 0;
-        sum += sample == kWhite ? 1.12 * 255.0 : sample[1];  // white is cut after the mean
+        white += sample == kBlank ? 1 : 0;
+        sum += sample == kBlank ? 1.12 * 255.0 : sample[1];  // white is cut after the mean
       }
       ASSERT_NEAR(pixels.At(x, y)[1], std::min(255.0, sum / 4.0), 1.0) << x << " " << y;
       mixed += white > 0 && white < 4 ? 1 : 0;

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
@@ -27,6 +28,10 @@ std::filesystem::path TempFolder::Write(const std::string& name, std::string_vie
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
   return file;
+}
+
+int CountFiles(const std::filesystem::path& folder) {
+  return static_cast<int>(std::distance(std::filesystem::recursive_directory_iterator(folder), {}));
 }
 
 }  // namespace antigrasp::shapes

@@ -24,4 +24,7 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
+// Files and folders in it, those of folders too.
+int CountFiles(const std::filesystem::path& folder);
+
 }  // namespace antigrasp::shapes

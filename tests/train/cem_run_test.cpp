@@ -123,7 +123,7 @@ TEST(CemRun, ReportsAFinishedRunWithoutDoingItAgain) {
   EXPECT_EQ(StatisticsToCsv(again.stages), StatisticsToCsv(first.stages));
 }
 
-RunConfig Latent() {
+RunConfig LatentRun() {
   RunConfig config = Tiny();
   config.cem.mode = EpisodeMode::kLatent;
   return config;
@@ -132,8 +132,8 @@ RunConfig Latent() {
 TEST(CemRun, LatentModeGivesEqualBytesAfterAnyInterruption) {
   const TempFolder folder;
   StoppingObserver never;
-  StartRun(Latent(), folder / "a", &never);
-  RunWithStops(Latent(), folder / "stopped",
+  StartRun(LatentRun(), folder / "a", &never);
+  RunWithStops(LatentRun(), folder / "stopped",
                {{8 + 4 + 20 + 1 + 3, "episode 0: scoring"},
                 {1 + 8, "episode 1: sampling"},
                 {1 + 3, "episode 1: scoring"}});

@@ -16,7 +16,7 @@ namespace {
 
 using shapes::TempFolder;
 
-RowFigure Example() {
+RowFigure TwoRows() {
   RowFigure figure;
   figure.titles = {"before", "after", "one too many"};
   figure.values_name = "after";
@@ -35,7 +35,7 @@ RowFigure Example() {
   return figure;
 }
 
-FigureOptions Small(int threads) {
+FigureOptions SmallPage(int threads) {
   FigureOptions options;
   options.width_mm = 90.0;
   options.dpi = 100.0;
@@ -46,9 +46,9 @@ FigureOptions Small(int threads) {
 TEST(RowFigure, HasTheSameBytesForAnyNumberOfThreads) {
   const TempFolder folder;
   for (const char* name : {"f.svg", "f.png"}) {
-    WriteRowFigure(folder / name, Example(), Small(1));
+    WriteRowFigure(folder / name, TwoRows(), SmallPage(1));
     const std::string one = ReadFile(folder / name);
-    WriteRowFigure(folder / name, Example(), Small(3));
+    WriteRowFigure(folder / name, TwoRows(), SmallPage(3));
     EXPECT_EQ(ReadFile(folder / name), one) << name;
   }
   EXPECT_EQ(shapes::WhyNotWellFormed(ReadFile(folder / "f.svg")), "");
@@ -56,7 +56,7 @@ TEST(RowFigure, HasTheSameBytesForAnyNumberOfThreads) {
 
 TEST(RowFigure, ObjectsStandOnTheLeftAndBarsOnTheRight) {
   const TempFolder folder;
-  WriteRowFigure(folder / "f.png", Example(), Small(1));
+  WriteRowFigure(folder / "f.png", TwoRows(), SmallPage(1));
   const Image image = ReadPng(folder / "f.png");
   int left = 0, right = 0;
   for (int y = 0; y < image.height; ++y) {
@@ -178,7 +178,7 @@ TEST(RowFigure, DrawsRowsOfWhichNothingIsThere) {
   const TempFolder folder;
   RowFigure figure;
   figure.rows.resize(2);
-  WriteRowFigure(folder / "f.svg", figure, Small(1));
+  WriteRowFigure(folder / "f.svg", figure, SmallPage(1));
   EXPECT_EQ(shapes::WhyNotWellFormed(ReadFile(folder / "f.svg")), "");
 }
 
