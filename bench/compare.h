@@ -4,6 +4,7 @@ namespace antigrasp::bench {
 
 void CompareEpsilon();
 void CompareEvaluation();
+void CompareFiles();
 void ComparePerturb();
 void ComparePoses();
 void CompareSimilarity();

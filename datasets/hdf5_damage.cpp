@@ -2,6 +2,7 @@
 
 #include "antigrasp/core/file_kind.h"
 #include "antigrasp/datasets/hdf5_handle.h"
+#include "antigrasp/datasets/hdf5_lock.h"
 
 namespace antigrasp {
 namespace {
@@ -12,7 +13,7 @@ constexpr std::uintmax_t kLongestHeader = 96;  // of versions 0 and 1; later one
 
 bool IsTruncatedHdf5(const std::filesystem::path& path) {
   if (!IsHdf5(path)) return false;
-  SilenceHdf5();
+  const Hdf5Lock lock;  // also for what the library tells of its last failure
   if (Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose)) return false;
   bool truncated = false;
   const auto look = [](unsigned, const H5E_error2_t* error, void* found) -> herr_t {

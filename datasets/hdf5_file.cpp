@@ -1,26 +1,18 @@
 #include "antigrasp/datasets/hdf5_file.h"
 
 #include <algorithm>
-#include <mutex>
 #include <utility>
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/hdf5_chunk.h"
 #include "antigrasp/datasets/hdf5_handle.h"
+#include "antigrasp/datasets/hdf5_lock.h"
 #include "antigrasp/datasets/hdf5_output.h"
 
 namespace antigrasp {
 namespace {
 
 using Handle = Hdf5Handle;
-
-// Of the library, which has one state for all files.
-std::recursive_mutex g_library;
-
-struct Lock {
-  explicit Lock(std::recursive_mutex& library) : guard(library) { SilenceHdf5(); }
-  std::lock_guard<std::recursive_mutex> guard;
-};
 
 Handle Utf8Type(std::size_t bytes) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
@@ -131,12 +123,12 @@ struct Hdf5File::Impl {
 
 Hdf5File::Hdf5File(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Hdf5File::~Hdf5File() {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   impl_.reset();
 }
 
 std::unique_ptr<Hdf5File> Hdf5File::Open(const std::filesystem::path& path) {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   auto impl = std::make_unique<Impl>();
   impl->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!impl->file) return nullptr;
@@ -144,7 +136,7 @@ std::unique_ptr<Hdf5File> Hdf5File::Open(const std::filesystem::path& path) {
 }
 
 std::unique_ptr<Hdf5File> Hdf5File::Create(const std::filesystem::path& path) {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   auto impl = std::make_unique<Impl>();
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.get(), false);
@@ -163,7 +155,7 @@ std::unique_ptr<Hdf5File> Hdf5File::Create(const std::filesystem::path& path) {
 
 std::optional<std::string> Hdf5File::StringAttribute(const std::string& name,
                                                      const std::string& object) const {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   const Handle attribute = impl_->Attribute(name, object);
   if (!attribute) return {};
   const Handle type(H5Aget_type(attribute.get()), H5Tclose);
@@ -176,14 +168,14 @@ std::optional<std::string> Hdf5File::StringAttribute(const std::string& name,
 }
 
 std::optional<std::uint64_t> Hdf5File::UintAttribute(const std::string& name) const {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   const auto values = impl_->Numbers<std::uint64_t>(name, H5T_NATIVE_UINT64, {H5T_INTEGER});
   if (!values || values->size() != 1) return {};
   return values->front();
 }
 
 std::optional<std::vector<double>> Hdf5File::DoublesAttribute(const std::string& name) const {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   return impl_->Numbers<double>(name, H5T_NATIVE_DOUBLE, {H5T_FLOAT, H5T_INTEGER});
 }
 
@@ -194,7 +186,7 @@ std::optional<double> Hdf5File::DoubleAttribute(const std::string& name) const {
 }
 
 std::vector<std::uint64_t> Hdf5File::Extents(const std::string& name) const {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   const Handle dataset = impl_->Dataset(name);
   if (!dataset) return {};
   const Handle space(H5Dget_space(dataset.get()), H5Sclose);
@@ -206,13 +198,13 @@ std::vector<std::uint64_t> Hdf5File::Extents(const std::string& name) const {
 }
 
 std::uint64_t Hdf5File::StoredBytes(const std::string& name) const {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   const Handle dataset = impl_->Dataset(name);
   return dataset ? H5Dget_storage_size(dataset.get()) : 0;
 }
 
 bool Hdf5File::HoldsFloats(const std::string& name) const {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   const Handle dataset = impl_->Dataset(name);
   if (!dataset) return false;
   const Handle type(H5Dget_type(dataset.get()), H5Tclose);
@@ -220,7 +212,7 @@ bool Hdf5File::HoldsFloats(const std::string& name) const {
 }
 
 bool Hdf5File::ReadFloats(const std::string& name, std::uint64_t item, float* values) const {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   const Handle dataset = impl_->Dataset(name);
   const std::vector<std::uint64_t> extents = Extents(name);
   if (!dataset || extents.empty()) return false;
@@ -238,7 +230,7 @@ bool Hdf5File::ReadFloats(const std::string& name, std::uint64_t item, float* va
 }
 
 std::optional<std::vector<std::string>> Hdf5File::ReadStrings(const std::string& name) const {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   const Handle dataset = impl_->Dataset(name);
   if (!dataset) return {};
   const Handle type(H5Dget_type(dataset.get()), H5Tclose);
@@ -250,7 +242,7 @@ std::optional<std::vector<std::string>> Hdf5File::ReadStrings(const std::string&
 
 void Hdf5File::WriteAttribute(const std::string& name, const std::string& value,
                               const std::string& object) {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   std::string padded = value;
   padded.resize(std::max<std::size_t>(value.size(), 1));  // HDF5 has no strings of length 0
   impl_->Write(object, name, {H5Screate(H5S_SCALAR), H5Sclose}, Utf8Type(padded.size()).get(),
@@ -258,17 +250,17 @@ void Hdf5File::WriteAttribute(const std::string& name, const std::string& value,
 }
 
 void Hdf5File::WriteAttribute(const std::string& name, std::uint64_t value) {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   impl_->Write("/", name, {H5Screate(H5S_SCALAR), H5Sclose}, H5T_NATIVE_UINT64, &value);
 }
 
 void Hdf5File::WriteAttribute(const std::string& name, double value) {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   impl_->Write("/", name, {H5Screate(H5S_SCALAR), H5Sclose}, H5T_NATIVE_DOUBLE, &value);
 }
 
 void Hdf5File::WriteAttribute(const std::string& name, const std::vector<double>& values) {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   const hsize_t count = values.size();
   impl_->Write("/", name, {H5Screate_simple(1, &count, nullptr), H5Sclose}, H5T_NATIVE_DOUBLE,
                values.data());
@@ -276,7 +268,7 @@ void Hdf5File::WriteAttribute(const std::string& name, const std::vector<double>
 
 void Hdf5File::CreateFloats(const std::string& name, std::uint64_t count,
                             const std::vector<std::uint64_t>& item_extents) {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   std::vector<hsize_t> extents(1, count), chunk(1, 1);
   extents.insert(extents.end(), item_extents.begin(), item_extents.end());
   chunk.insert(chunk.end(), item_extents.begin(), item_extents.end());
@@ -296,7 +288,7 @@ void Hdf5File::CreateFloats(const std::string& name, std::uint64_t count,
 }
 
 void Hdf5File::AppendFloats(const float* values) {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   const Handle space(H5Dget_space(impl_->values.get()), H5Sclose);
   const Handle chunk_space(
       H5Screate_simple(static_cast<int>(impl_->chunk.size()), impl_->chunk.data(), nullptr),
@@ -309,7 +301,7 @@ void Hdf5File::AppendFloats(const float* values) {
 }
 
 void Hdf5File::WriteStrings(const std::string& name, const std::vector<std::string>& values) {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   impl_->Require(impl_->values.Release());  // what is before these in the file is all there
   std::size_t bytes = 1;
   for (const std::string& value : values) bytes = std::max(bytes, value.size());
@@ -330,7 +322,7 @@ void Hdf5File::WriteStrings(const std::string& name, const std::vector<std::stri
 }
 
 void Hdf5File::Close() {
-  const Lock lock(g_library);
+  const Hdf5Lock lock;
   const bool closed = impl_->values.Release() && impl_->file.Release();
   impl_->Require(closed);
 }

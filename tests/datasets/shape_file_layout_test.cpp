@@ -43,7 +43,8 @@ TEST(ShapeFileLayout, FilesOfVersionOneAreStillRead) {
 // stored, a mask of the filters passed by, and where the chunk begins along five extents.
 class ChunkIndex : public testing::Test {
  protected:
-  static constexpr std::size_t kKeys = 24, kKey = 56, kMask = 4, kPlace = 8, kAddress = 48;
+  static constexpr std::size_t kKeys = 24, kKey = 56, kSize = 0, kMask = 4, kPlace = 8,
+                               kAddress = 48;
 
   // Three grids that deflate to less than half.
   ChunkIndex() {
@@ -94,6 +95,14 @@ TEST_F(ChunkIndex, AChunkThatPassedAFilterByIsRefused) {
   EXPECT_EQ(With(2, kMask, std::uint32_t{4}), Refusal(2));  // check sum
   EXPECT_EQ(With(0, kMask, std::uint32_t{8}), Refusal(0));  // there is no such filter
   EXPECT_EQ(With(0, kMask, ~std::uint32_t{0}), Refusal(0));
+}
+
+// What the index says of a chunk's size is memory to ask for before anything is read, and HDF5
+// 1.10.8 crashes on one that is smaller than its check sum.
+TEST_F(ChunkIndex, AChunkOfAnotherSizeIsRefused) {
+  for (const std::uint32_t bytes : {0U, 1U, 3U, 4U, 5U, 2U * 864U + 4097U, ~0U}) {
+    EXPECT_EQ(With(1, kSize, bytes), Refusal(1)) << bytes;
+  }
 }
 
 TEST_F(ChunkIndex, AMissingChunkIsNoGridOfZeros) {

@@ -196,6 +196,7 @@ struct Foreign {
   std::vector<hsize_t> extents = {2, 2, 2, 2};
   std::vector<const char*> names = {"first", "second"};
   hid_t type = H5T_IEEE_F64BE;
+  std::vector<hsize_t> chunk = {};  // of /sdf; none: all in one piece
 
   static void Attribute(hid_t file, const char* name, hid_t type, hid_t memory, const void* data,
                         hsize_t count) {
@@ -215,11 +216,14 @@ struct Foreign {
     Attribute(file, name, H5T_IEEE_F64BE, H5T_NATIVE_DOUBLE, values.data(), values.size());
   }
   static void Dataset(hid_t file, const char* name, hid_t type, hid_t memory, const void* data,
-                      const std::vector<hsize_t>& extents) {
+                      const std::vector<hsize_t>& extents, const std::vector<hsize_t>& chunk = {}) {
     const hid_t space = H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr);
-    const hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t made = H5Pcreate(H5P_DATASET_CREATE);
+    if (!chunk.empty()) H5Pset_chunk(made, static_cast<int>(chunk.size()), chunk.data());
+    const hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, made, H5P_DEFAULT);
     EXPECT_TRUE(data == nullptr || H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
     H5Dclose(set);
+    H5Pclose(made);
     H5Sclose(space);
   }
 
@@ -237,7 +241,7 @@ struct Foreign {
     std::vector<float> values;
     for (int i = 0; i < 16; ++i) values.push_back(Mark(i / 8, i % 2, i / 2 % 2, i / 4 % 2));
     const bool small = extents == std::vector<hsize_t>{2, 2, 2, 2};
-    Dataset(file, "/sdf", type, H5T_NATIVE_FLOAT, small ? values.data() : nullptr, extents);
+    Dataset(file, "/sdf", type, H5T_NATIVE_FLOAT, small ? values.data() : nullptr, extents, chunk);
     const hid_t signed_object = H5Oopen(file, sign_of, H5P_DEFAULT);
     Text(signed_object, "sign", sign);
     H5Oclose(signed_object);
@@ -249,6 +253,25 @@ struct Foreign {
     return path;
   }
 };
+
+// Two grids of 64 bytes, each a chunk. The index of chunks begins with TREE and a one; 24 bytes on
+// stand the stored bytes of the first.
+TEST(ShapeFile, OfAnotherProgramInPlainChunksIsReadAndItsDamageSeen) {
+  const TempFolder folder;
+  const auto path = Foreign{.chunk = {1, 2, 2, 2}}.WriteTo(folder / "foreign.h5");
+  const ShapeSet set = ReadShapeSet(path);
+  EXPECT_EQ(set.grids[1].values[set.grids[1].Index(1, 0, 1)], Mark(1, 1, 0, 1));
+  const std::string bytes = ReadFile(path);
+  const std::size_t size_at = bytes.find("TREE\x01") + 24;
+  ASSERT_EQ(bytes.substr(size_at, 4), std::string("\x40\0\0\0", 4));
+  for (const char* damaged : {"\x08\0\0\0", "\x41\0\0\0", "\xFF\xFF\xFF\xFF"}) {
+    std::string changed = bytes;
+    changed.replace(size_at, 4, std::string(damaged, 4));
+    const ShapeSetReader reader(folder.Write("damaged.h5", changed));
+    EXPECT_THROW(reader.Grid(0), InputError);
+    EXPECT_EQ(reader.Grid(1).values, set.grids[1].values);
+  }
+}
 
 TEST(ShapeFile, OfAnotherProgramIsReadAsItIsMeant) {
   const TempFolder folder;
