@@ -11,16 +11,6 @@
 namespace antigrasp {
 namespace {
 
-bool IsFinite(const TriangleMesh& mesh) {
-  const auto count = static_cast<std::int64_t>(mesh.vertices.size());
-  const auto in_range = [&](std::int32_t v) { return v >= 0 && v < count; };
-  return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
-                     [](const Eigen::Vector3d& v) { return v.allFinite(); }) &&
-         std::all_of(mesh.faces.begin(), mesh.faces.end(), [&](const auto& face) {
-           return std::all_of(face.begin(), face.end(), in_range);
-         });
-}
-
 std::int32_t CornerAt(const TriangleMesh& mesh, std::int32_t face, std::int32_t vertex) {
   int k = 0;
   while (mesh.faces[face][k] != vertex) ++k;
@@ -106,6 +96,16 @@ std::string Counted(int count, const std::string& singular) {
 }
 
 }  // namespace
+
+bool IsFinite(const TriangleMesh& mesh) {
+  const auto count = static_cast<std::int64_t>(mesh.vertices.size());
+  const auto in_range = [&](std::int32_t v) { return v >= 0 && v < count; };
+  return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
+                     [](const Eigen::Vector3d& v) { return v.allFinite(); }) &&
+         std::all_of(mesh.faces.begin(), mesh.faces.end(), [&](const auto& face) {
+           return std::all_of(face.begin(), face.end(), in_range);
+         });
+}
 
 MeshReport Inspect(const TriangleMesh& mesh, bool check_self_intersection) {
   MeshReport report;

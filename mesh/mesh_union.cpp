@@ -11,6 +11,8 @@ using ExactPoint = CGAL::Exact_predicates_exact_constructions_kernel::Point_3;
 using ExactMesh = CGAL::Surface_mesh<ExactPoint>;
 namespace corefinement = CGAL::Polygon_mesh_processing;
 
+// Nothing of a mesh that is not manifold: CGAL adds no third face to an edge, and no second fan to
+// a vertex.
 std::optional<ExactMesh> ToExactMesh(const TriangleMesh& mesh) {
   ExactMesh surface;
   for (const auto& v : mesh.vertices) surface.add_vertex(ExactPoint(v.x(), v.y(), v.z()));

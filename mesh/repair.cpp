@@ -7,6 +7,7 @@
 
 #include "antigrasp/mesh/clean_faces.h"
 #include "antigrasp/mesh/orient.h"
+#include "antigrasp/mesh/slivers.h"
 #include "antigrasp/mesh/topology.h"
 #include "antigrasp/mesh/unite.h"
 #include "antigrasp/mesh/weld.h"
@@ -17,8 +18,6 @@ namespace {
 // Vertices this close, relative to the diagonal of the bounding box, may be one: about what is left
 // of a coordinate that went through float32 or six printed digits.
 constexpr double kNearVertices = 1e-7;
-// One pass settles slivers that are not neighbours, and each further one the next of a chain.
-constexpr int kMostSliverPasses = 32;
 
 // "removed 3 degenerate faces"; nothing when it did not happen.
 void Say(std::vector<std::string>* actions, const std::string& done, std::size_t count,
@@ -77,7 +76,7 @@ bool MergeWithin(double tolerance, RepairResult* result) {
   const std::size_t lines = DropLines(&merged);
   const DroppedCopies copies = DropCopies(&merged);
   const std::size_t vertices = DropUnusedVertices(&merged);
-  if (merged.faces.empty() || Inspect(merged, false).boundary_edges > 0) return false;
+  if (merged.faces.empty() || CountEdges(merged).boundary > 0) return false;
   result->mesh = std::move(merged);
   SayVertices(&result->actions, "merged", vertices, "nearly equal");
   SayFaces(&result->actions, "removed", lines, "emptied");
@@ -87,7 +86,7 @@ bool MergeWithin(double tolerance, RepairResult* result) {
 
 // Seams that rounding has opened.
 void MergeNear(RepairResult* result) {
-  if (Inspect(result->mesh, false).boundary_edges == 0) return;
+  if (CountEdges(result->mesh).boundary == 0) return;
   const double near = kNearVertices * Bounds(result->mesh).Extent().norm();
   const double step = Float32Step(result->mesh);
   if (!MergeWithin(near, result) && step > near) MergeWithin(step, result);
@@ -96,7 +95,7 @@ void MergeNear(RepairResult* result) {
 // Makes neighbours agree, and pieces face outward or, as voids, inward; then pieces that overlap
 // become one.
 void Orient(RepairResult* result) {
-  const bool closed = Inspect(result->mesh, false).closed;
+  const bool closed = CountEdges(result->mesh).Closed();
   const Orientation orientation = OrientFaces(&result->mesh, closed);
   if (orientation.turned > 0 && orientation.turned == result->mesh.faces.size()) {
     result->actions.push_back("turned inside out");
@@ -107,80 +106,9 @@ void Orient(RepairResult* result) {
   Say(&result->actions, "united", united, "overlapping", "piece", "pieces");
 }
 
-// One pass of flips. Vertices that took part are left alone afterwards, so that the table of edges
-// stays right for the others.
-class SliverFlipper {
- public:
-  explicit SliverFlipper(TriangleMesh* mesh)
-      : mesh_(mesh), uses_(SortedEdgeUses(*mesh)), touched_(mesh->vertices.size(), false) {}
-
-  // Replaces the collinear face (p, q, r), r between p and q, and its neighbour (q, p, d) by
-  // (p, d, r) and (q, r, d): the same surface without the sliver.
-  bool Flip(std::int32_t face) {
-    const int k = LongestSide(face);
-    const std::int32_t p = mesh_->faces[face][k], q = mesh_->faces[face][(k + 1) % 3];
-    const std::int32_t r = mesh_->faces[face][(k + 2) % 3];
-    const auto [first, last] = Uses(p, q);
-    if (last - first != 2) return false;
-    const std::int32_t other = first->face == face ? (first + 1)->face : first->face;
-    const auto& neighbour = mesh_->faces[other];
-    int j = 0;
-    while (j < 3 && !(neighbour[j] == q && neighbour[(j + 1) % 3] == p)) ++j;
-    if (j == 3) return false;  // wound differently
-    const std::int32_t d = neighbour[(j + 2) % 3];
-    const auto [taken_first, taken_last] = Uses(r, d);
-    if (d == r || taken_first != taken_last) return false;
-    if (touched_[p] || touched_[q] || touched_[r] || touched_[d]) return false;
-    for (const std::int32_t v : {p, q, r, d}) touched_[v] = true;
-    mesh_->faces[face] = {p, d, r};
-    mesh_->faces[other] = {q, r, d};
-    return true;
-  }
-
- private:
-  using Range =
-      std::pair<std::vector<EdgeUse>::const_iterator, std::vector<EdgeUse>::const_iterator>;
-
-  int LongestSide(std::int32_t face) const {
-    int longest = 0;
-    double length = -1.0;
-    for (int k = 0; k < 3; ++k) {
-      const auto& f = mesh_->faces[face];
-      const double side = (mesh_->vertices[f[(k + 1) % 3]] - mesh_->vertices[f[k]]).norm();
-      if (side > length) {
-        length = side;
-        longest = k;
-      }
-    }
-    return longest;
-  }
-
-  Range Uses(std::int32_t a, std::int32_t b) const {
-    const EdgeUse key{std::min(a, b), std::max(a, b), 0, false};
-    return std::equal_range(uses_.begin(), uses_.end(), key, [](const auto& x, const auto& y) {
-      return std::pair(x.low, x.high) < std::pair(y.low, y.high);
-    });
-  }
-
-  TriangleMesh* mesh_;
-  std::vector<EdgeUse> uses_;
-  std::vector<bool> touched_;
-};
-
-// Slivers of a closed mesh; where nothing but a hole could come of it they stay, and are reported.
-void FlipSlivers(RepairResult* result) {
-  std::size_t flipped = 0;
-  for (int pass = 0; pass < kMostSliverPasses; ++pass) {
-    const MeshReport report = Inspect(result->mesh, false);
-    if (!report.closed || !report.oriented || report.degenerate_faces == 0) break;
-    const std::size_t before = flipped;
-    SliverFlipper flipper(&result->mesh);
-    for (std::size_t f = 0; f < result->mesh.faces.size(); ++f) {
-      if (IsDegenerate(result->mesh, f)) flipped += flipper.Flip(static_cast<std::int32_t>(f));
-    }
-    if (flipped == before) break;
-  }
-  SayFaces(&result->actions, "flipped the long edge of", flipped, "zero-area");
+// Slivers lie on an edge: two faces that they part would count as crossing each other.
+void SayFlipped(RepairResult* result) {
+  SayFaces(&result->actions, "flipped the long edge of", FlipSlivers(&result->mesh), "zero-area");
 }
 
 }  // namespace
@@ -188,11 +116,11 @@ void FlipSlivers(RepairResult* result) {
 RepairResult Repair(const TriangleMesh& mesh) {
   RepairResult result;
   result.mesh = mesh;
-  if (Inspect(mesh, false).finite) {
+  if (IsFinite(mesh)) {
     MergeEqual(&result);
     MergeNear(&result);
+    SayFlipped(&result);
     Orient(&result);
-    FlipSlivers(&result);
   }
   result.report = Inspect(result.mesh);
   result.refusal = WhyNotSolid(result.report);

@@ -18,9 +18,9 @@ struct RepairResult {
 };
 
 // Merges duplicate vertices, drops degenerate and duplicate faces and those that cancel between
-// parts, makes the winding agree and outward (inward around a void), unites pieces that overlap.
-// Never invents surface: an open or self-intersecting mesh is refused with the reason. The mesh is
-// to be in its file's own coordinates: what counts as rounding grows with them.
+// parts, flips slivers away, makes the winding agree and outward (inward around a void), unites
+// pieces that overlap. Never invents surface: an open or self-intersecting mesh is refused with the
+// reason. The mesh is to be in its file's own coordinates: what counts as rounding grows with them.
 RepairResult Repair(const TriangleMesh& mesh);
 
 }  // namespace antigrasp

@@ -28,6 +28,16 @@ std::vector<EdgeUse> SortedEdgeUses(const TriangleMesh& mesh) {
   return uses;
 }
 
+EdgeCounts CountEdges(const TriangleMesh& mesh) {
+  EdgeCounts counts;
+  ForEachEdge(SortedEdgeUses(mesh), [&](auto first, auto last) {
+    ++counts.edges;
+    counts.boundary += last - first == 1;
+    counts.nonmanifold += last - first > 2;
+  });
+  return counts;
+}
+
 ParitySets::ParitySets(std::size_t count) : nodes_(count) {
   for (std::size_t i = 0; i < count; ++i) nodes_[i].parent = static_cast<std::int32_t>(i);
 }

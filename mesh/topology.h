@@ -29,6 +29,15 @@ void ForEachEdge(const std::vector<EdgeUse>& uses, const Visit& visit) {
   }
 }
 
+// All that a repair needs to know of most meshes; n log n. Needs indices in range.
+struct EdgeCounts {
+  int edges = 0;
+  int boundary = 0;     // with one face
+  int nonmanifold = 0;  // with more than two
+  bool Closed() const { return edges > 0 && boundary == 0 && nonmanifold == 0; }
+};
+EdgeCounts CountEdges(const TriangleMesh& mesh);
+
 // Disjoint sets whose members also carry a parity against the root of their set: two triangles with
 // parity 1 between them have to be wound differently from how they are. Near-constant time.
 class ParitySets {

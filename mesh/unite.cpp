@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "antigrasp/mesh/clean_faces.h"
-#include "antigrasp/mesh/inspect.h"
 #include "antigrasp/mesh/mesh_union.h"
 #include "antigrasp/mesh/self_intersection.h"
+#include "antigrasp/mesh/slivers.h"
+#include "antigrasp/mesh/topology.h"
 #include "antigrasp/mesh/weld.h"
 
 namespace antigrasp {
@@ -47,7 +48,7 @@ std::optional<TriangleMesh> UnionOf(const Group& group, std::vector<TriangleMesh
 }
 
 // Corners of the exact union this close, relative to the diagonal, are one in double, or next to
-// it: between them are needles without area.
+// it: between them are needles without area, and beside it faces that rounding has flattened.
 constexpr double kRoundedCorner = 1e-12;
 
 void Weld(TriangleMesh* mesh) {
@@ -55,6 +56,7 @@ void Weld(TriangleMesh* mesh) {
   DropLines(mesh);
   DropCopies(mesh);
   DropUnusedVertices(mesh);
+  FlipSlivers(mesh);
 }
 
 }  // namespace
@@ -80,7 +82,7 @@ std::size_t UniteGroups(const Orientation& orientation, TriangleMesh* mesh) {
     }
   }
   Weld(&whole);
-  if (!Inspect(whole, false).closed || SelfIntersects(whole)) return 0;
+  if (!CountEdges(whole).Closed() || SelfIntersects(whole)) return 0;
   // What lay in two of the pieces lies in one now: whether it is matter is no longer known.
   if (OrientFaces(&whole, true).turned > 0) return 0;
   *mesh = std::move(whole);

@@ -118,6 +118,51 @@ TEST(RepairParts, OverlappingPartsAreUnitedExactly) {
   EXPECT_TRUE(Repair(result.mesh).actions.empty());
 }
 
+// A cube of edge 4 with a corner set into the middle of the diagonal of its lower side, between two
+// faces and a sliver, and a foot of 1 x 1 x 2 that reaches one unit into it there.
+TEST(RepairParts, ASliverOnTheSeamIsNoCrossing) {
+  TriangleMesh cube = BoxAt({0, 0, 0}, {4, 4, 4});
+  const auto [a, b, c] = cube.faces[0];  // b is across the diagonal (a, c) from the other face
+  cube.vertices.push_back(0.5 * (cube.vertices[a] + cube.vertices[c]));
+  cube.faces[0] = {a, b, 8};
+  cube.faces.insert(cube.faces.end(), {{b, c, 8}, {a, 8, c}});
+  const RepairResult result = Repair(Joined(cube, BoxAt({1.5, 1.5, -1}, {2.5, 2.5, 1})));
+  EXPECT_TRUE(result.accepted()) << result.refusal;
+  EXPECT_EQ(result.actions, (std::vector<std::string>{"flipped the long edge of 1 zero-area face",
+                                                      "united 2 overlapping pieces"}));
+  EXPECT_DOUBLE_EQ(result.report.volume, 64.0 + 1.0);
+}
+
+// What lies in both of two overlapping blocks lies in one of them afterwards. It was a second body,
+// and would be a void.
+TEST(RepairParts, ABodyInTwoOverlappingPartsIsNotMadeAVoid) {
+  const TriangleMesh blocks = Joined(BoxAt({0, 0, 0}, {4, 4, 4}), BoxAt({1, 1, 1}, {7, 3, 3}));
+  const TriangleMesh stone = BoxAt({1.5, 1.5, 1.5}, {2.5, 2.5, 2.5});
+  for (const TriangleMesh& inner : {stone, Inverted(stone)}) {
+    const RepairResult result = Repair(Joined(blocks, inner));
+    EXPECT_EQ(result.refusal, "overlapping pieces: 2");
+    EXPECT_EQ(result.mesh.faces.size(), 36u);
+  }
+  // In one of them only it is a void before and after.
+  const RepairResult hollow = Repair(Joined(blocks, BoxAt({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})));
+  EXPECT_TRUE(hollow.accepted()) << hollow.refusal;
+  EXPECT_DOUBLE_EQ(hollow.report.volume, 64.0 + 24.0 - 12.0 - 0.125);
+}
+
+// A ring whose first circle of corners is one point: closed, every edge between two faces, two fans
+// at the point.
+TEST(RepairParts, APartThatTouchesItselfInAVertexIsNotUnited) {
+  TriangleMesh ring = shapes::Torus(2.0, 0.5, 12, 6);
+  for (auto& face : ring.faces) {
+    for (std::int32_t& v : face) v = v < 6 ? 0 : v;
+  }
+  std::erase_if(ring.faces,
+                [](const auto& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; });
+  const TriangleMesh bar = BoxAt({-3, -0.1, -0.1}, {-1, 0.1, 0.1});
+  EXPECT_FALSE(Union({ring, bar}).has_value());
+  EXPECT_EQ(Repair(Joined(ring, bar)).refusal, "non-manifold: parts touch in a single vertex");
+}
+
 TEST(RepairParts, ASmallPartOnTheFaceOfABlockIsOneBodyWithIt) {
   const RepairResult result =
       Repair(Joined(BoxAt({0, 0, 0}, {4, 4, 4}), BoxAt({1, 1, 4}, {2, 3, 6})));
