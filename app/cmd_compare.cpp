@@ -6,6 +6,7 @@
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
+#include "antigrasp/app/flags.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/rng.h"
@@ -17,6 +18,7 @@ namespace {
 
 struct CompareFlags {
   std::string samples, reference, training, out;
+  LengthUnit units = LengthUnit::kM;
   int count = 500;
   SurfaceComparisonOptions options;
 };
@@ -27,16 +29,18 @@ struct LoadedSet {
   int left_out = 0;
 };
 
-LoadedSet Load(const std::string& input, const std::string& what, int threads) {
+LoadedSet Load(const std::string& input, const std::string& what, const CompareFlags& flags) {
   ConsoleObserver console;
   std::vector<InputObject> objects =
-      LoadObjects({input}, threads, console.Phase("reading the " + what));
+      LoadObjects({input}, flags.options.threads, console.Phase("reading the " + what));
   LoadedSet set;
   std::vector<std::string> statuses;
   for (InputObject& object : objects) {
     statuses.push_back(object.status);
     if (object.ok() && SurfaceArea(object.mesh) > 0.0) {
-      set.meshes.push_back(std::move(object.mesh));
+      set.meshes.push_back(flags.units == LengthUnit::kM
+                               ? std::move(object.mesh)
+                               : Transformed(object.mesh, MetresPer(flags.units), {0.0, 0.0, 0.0}));
     } else {
       ++set.left_out;
     }
@@ -78,11 +82,10 @@ void Compare(const CompareFlags& flags) {
   for (const std::string& read : {flags.samples, flags.reference, flags.training}) {
     if (!read.empty()) ObjectSource({read}).RequireNotRead({flags.out});
   }
-  const int threads = flags.options.threads;
-  LoadedSet samples = Load(flags.samples, "samples", threads);
-  LoadedSet reference = Load(flags.reference, "reference", threads);
+  LoadedSet samples = Load(flags.samples, "samples", flags);
+  LoadedSet reference = Load(flags.reference, "reference", flags);
   LoadedSet training;
-  if (!flags.training.empty()) training = Load(flags.training, "training set", threads);
+  if (!flags.training.empty()) training = Load(flags.training, "training set", flags);
   const auto require = [](const LoadedSet& set, std::size_t least, const std::string& input) {
     if (set.meshes.size() >= least) return;
     throw InputError(std::to_string(set.meshes.size()) + " solids", input,
@@ -117,6 +120,7 @@ void AddCompareCommand(CLI::App* app) {
   command->add_option("--train", flags->training,
                       "what the samples' generator was trained on: looks for copies");
   command->add_option("--out", flags->out, "the numbers (CSV)");
+  AddUnits(command, &flags->units, " (of an SDF file: the side of its cube), for the distances");
   command->add_option("--count", flags->count, "most shapes of either set, drawn at random")
       ->check(CLI::Range(2, 5000))
       ->capture_default_str();
@@ -130,8 +134,8 @@ void AddCompareCommand(CLI::App* app) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command->footer(
-      "Distances are Chamfer distances, in the unit of the objects, which are compared "
-      "as they lie.\ndocs/similarity.md defines every number.");
+      "Distances are Chamfer distances in metres, the objects' unit being --units; they are "
+      "compared as they lie.\ndocs/similarity.md defines every number.");
   command->callback([flags] { Compare(*flags); });
 }
 

@@ -14,6 +14,7 @@
 #include "antigrasp/core/ordered_stream.h"
 #include "antigrasp/core/statistics.h"
 #include "antigrasp/quality/grasp_table.h"
+#include "antigrasp/quality/object_size.h"
 
 namespace antigrasp {
 namespace {
@@ -30,11 +31,13 @@ struct EvaluateFlags {
 
 // What is kept of the objects when they have been scored.
 struct Scores {
+  explicit Scores(const MetricOptions& metric) : sizes(metric) {}
   ScoreTable table;
   std::string first;                      // the first one and its status
   std::vector<double> values, originals;  // graspabilities, NaN where there is none
   std::vector<std::string> notes;
   CandidateCount candidates;
+  UnlikelySizes sizes;
 };
 
 std::string MetricPath(const EvaluateFlags& flags) {
@@ -57,11 +60,11 @@ std::string HalfWidth(const char* format, double half_width) {
   return text;
 }
 
-void PrintSummary(const Scores& scores) {
+void PrintSummary(const Scores& scores, const MetricOptions& metric) {
   const MeanInterval mean = MeanWithInterval(scores.values);
-  std::fprintf(stderr, "%d objects scored, %d not: mean graspability %.5f%s\n", mean.count,
+  std::fprintf(stderr, "%d objects scored, %d not: mean graspability %.5f%s, %s\n", mean.count,
                static_cast<int>(scores.values.size()) - mean.count, mean.mean,
-               HalfWidth(" +-%.5f (95 %%)", mean.half_width).c_str());
+               HalfWidth(" +-%.5f (95 %%)", mean.half_width).c_str(), SizeText(metric).c_str());
   std::fprintf(stderr, "%s\n", scores.candidates.Text().c_str());
 }
 
@@ -98,9 +101,7 @@ void RequireAScore(const EvaluateFlags& flags, const Scores& scores) {
 
 // Object by object, each with its original's graspability where there are originals.
 Scores ScoreAllOf(const ObjectSource& objects, const EvaluateFlags& flags,
-                  const MetricFlags& metric_flags) {
-  const MetricOptions metric = metric_flags.Resolve();
-  const bool egad = metric_flags.preset() == "egad";
+                  const MetricOptions& metric, bool egad) {
   std::optional<ObjectSource> originals;
   std::vector<std::int64_t> original_of;
   if (!flags.baseline.empty()) {
@@ -110,7 +111,7 @@ Scores ScoreAllOf(const ObjectSource& objects, const EvaluateFlags& flags,
   std::optional<AtomicFile> grasps_file;
   if (!flags.grasps.empty()) grasps_file.emplace(flags.grasps);
   GraspTable grasps(flags.frame);
-  Scores scores;
+  Scores scores(metric);
   ConsoleObserver console;
   StreamInOrder(
       objects.size(), flags.threads,
@@ -130,12 +131,14 @@ Scores ScoreAllOf(const ObjectSource& objects, const EvaluateFlags& flags,
         if (original) scores.originals.push_back(*original);
         if (!scored.note.empty()) scores.notes.push_back(scored.name + ": " + scored.note);
         scores.candidates.Add(scored.score);
+        scores.sizes.Add(scored.name, scored.extent, &scored.score);
         if (!grasps_file) return;
         grasps.Add(scored.name, scored.score, scored.center_of_mass);
         grasps_file->Append(grasps.TakeText());
       },
       console.Phase("scoring"));
   for (const std::string& note : scores.notes) spdlog::warn("{}", note);
+  for (const std::string& size : scores.sizes.Texts()) spdlog::warn("{}", size);
   RequireAScore(flags, scores);
   if (grasps_file) grasps_file->Commit();
   return scores;
@@ -152,9 +155,9 @@ void Evaluate(const EvaluateFlags& flags, const MetricFlags& metric_flags) {
   if (!flags.baseline.empty()) {
     ObjectSource(flags.baseline).RequireNotRead({flags.out, MetricPath(flags), flags.grasps});
   }
-  const Scores scores = ScoreAllOf(objects, flags, metric_flags);
+  const Scores scores = ScoreAllOf(objects, flags, metric, metric_flags.preset() == "egad");
   WriteScores(flags, metric, scores.table.Csv());
-  PrintSummary(scores);
+  PrintSummary(scores, metric);
   if (!flags.baseline.empty()) PrintPairedDifference(scores);
 }
 

@@ -15,6 +15,7 @@
 #include "antigrasp/export/print_table.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/mesh_format.h"
+#include "antigrasp/quality/object_size.h"
 
 namespace antigrasp {
 namespace {
@@ -31,7 +32,13 @@ struct ExportFlags {
   std::string format = "stl";
   ExportPose pose = ExportPose::kAsIs;
   double size_mm = 60.0;
+  bool true_size = false;
+  LengthUnit units = LengthUnit::kM;
   int threads = 0;
+
+  double SizeOf(const TriangleMesh& mesh) const {
+    return true_size ? 1000.0 * MetresPer(units) * Bounds(mesh).Extent().maxCoeff() : size_mm;
+  }
 };
 
 std::string FileOf(const std::string& name, const ExportFlags& flags) {
@@ -52,7 +59,7 @@ Placed PlaceForPrint(InputObject object, const ExportFlags& flags, const PrintOp
     return placed;
   }
   PrintCheck& check = placed.printed.check;
-  check = CheckPrint(object.mesh, flags.size_mm, options);
+  check = CheckPrint(object.mesh, flags.SizeOf(object.mesh), options);
   placed.refusal = check.why_not_solid;
   if (!placed.refusal.empty()) return placed;
   const Eigen::Matrix3d pose =
@@ -77,6 +84,10 @@ void Export(const ExportFlags& flags, const PrintOptions& options) {
   StagedFolder staged(flags.out);
   PrintTable solids(options);
   std::vector<std::string> refusals;
+  MetricOptions as_it_is;
+  as_it_is.object_min_extent = 0.0;
+  as_it_is.units = flags.units;
+  UnlikelySizes sizes(as_it_is);
   ConsoleObserver console;
   StreamInOrder(
       objects.size(), flags.threads,
@@ -88,17 +99,25 @@ void Export(const ExportFlags& flags, const PrintOptions& options) {
           return;
         }
         WriteMesh(staged.path() / FileOf(item.printed.name, flags), item.mesh);
+        const PrintCheck& check = item.printed.check;
+        if (flags.true_size) sizes.Add(item.printed.name, check.size_mm / check.mm_per_unit);
         solids.Add(std::move(item.printed));
       },
       console.Phase("checking"));
   if (solids.size() == 0)
     throw InputError(refusals.front(), flags.inputs.front(), "a closed solid");
   for (const std::string& refusal : refusals) spdlog::warn("not exported: {}", refusal);
+  for (const std::string& size : sizes.Texts()) spdlog::warn("{}", size);
   staged.Commit();
   WriteFileAtomic(std::filesystem::path(flags.out) / "print.csv", solids.Csv());
-  std::printf("%zu of %zu objects in %s, largest extent %g mm\n%s", solids.size(),
-              solids.size() + refusals.size(), flags.out.c_str(), flags.size_mm,
-              solids.Summary().c_str());
+  std::printf("%zu of %zu objects in %s, ", solids.size(), solids.size() + refusals.size(),
+              flags.out.c_str());
+  if (flags.true_size) {
+    std::printf("at true size (%s)\n", ChoiceName(flags.units).c_str());
+  } else {
+    std::printf("largest extent %g mm\n", flags.size_mm);
+  }
+  std::fputs(solids.Summary().c_str(), stdout);
 }
 
 }  // namespace
@@ -115,6 +134,11 @@ void AddExportCommand(CLI::App* app) {
   command->add_option("--size-mm", flags->size_mm, "largest extent in the object's own frame, mm")
       ->check(NumberIn(0.001, 1e5))
       ->capture_default_str();
+  CLI::Option* const true_size =
+      command->add_flag("--true-size", flags->true_size, "as large as it is, not --size-mm");
+  true_size->excludes("--size-mm");
+  AddUnits(command, &flags->units, " (of an SDF file: the side of its cube), with --true-size");
+  command->get_option("--units")->needs(true_size);
   AddChoice(command, "--pose", &flags->pose,
             "as-is: the object's own axes, so that grasps and poses go with the file; print: "
             "turned into the pose suggested for printing");

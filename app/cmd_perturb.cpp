@@ -84,6 +84,7 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
   CheckPerturbFolder(flags.inputs, flags.out);
   auto inputs = LoadObjects(flags.inputs, flags.threads, console.Phase("reading"));
   WarnOfNotes(inputs);
+  WarnOfSizes(inputs, settings.metric);
   const auto objects =
       PerturbAll(std::move(inputs), settings, flags.threads, console.Phase("perturbing"));
   const std::filesystem::path out(flags.out);

@@ -5,6 +5,7 @@
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
+#include "antigrasp/app/flags.h"
 #include "antigrasp/app/object_notes.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_writer.h"
@@ -19,6 +20,7 @@ namespace {
 struct PosesFlags {
   std::vector<std::string> inputs;
   std::string out;
+  LengthUnit units = LengthUnit::kM;
   int threads = 0;
 };
 
@@ -28,9 +30,11 @@ std::vector<StablePose> PosesOf(const InputObject& object) {
   return StablePoses(object.mesh, CenterOfMass(ConvexHull(object.mesh.vertices)));
 }
 
-void AppendPoses(const std::string& name, const std::vector<StablePose>& poses, CsvWriter* csv) {
+void AppendPoses(const std::string& name, const std::vector<StablePose>& poses, LengthUnit units,
+                 CsvWriter* csv) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    csv->Text(name).Count(std::int64_t(i)).Numbers({poses[i].probability, poses[i].com_height});
+    csv->Text(name).Count(std::int64_t(i));
+    csv->Numbers({poses[i].probability, MetresPer(units) * poses[i].com_height});
     for (const double value : poses[i].table_from_object.reshaped<Eigen::RowMajor>()) {
       csv->Number(value);
     }
@@ -59,7 +63,7 @@ void Poses(const PosesFlags& flags) {
   std::size_t with_poses = 0;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     with_poses += poses[i].empty() ? 0 : 1;
-    AppendPoses(objects[i].name, poses[i], &csv);
+    AppendPoses(objects[i].name, poses[i], flags.units, &csv);
   }
   if (with_poses == 0) {
     throw InputError("no stable pose", flags.inputs.front(), "an object that is not flat");
@@ -87,9 +91,9 @@ void Poses(const PosesFlags& flags) {
 
 constexpr const char* kPoseColumns =
     "Columns: probability of the pose after a drop in a random orientation (quasi-static);\n"
-    "com_height, the centre of mass above the table in the mesh's unit; r00 ... r22, the rotation\n"
-    "from the object to the table frame by rows: r20 r21 r22 is the table's normal, up, in the\n"
-    "object frame.\n";
+    "com_height, the centre of mass above the table in metres, the mesh's unit being --units;\n"
+    "r00 ... r22, the rotation from the object to the table frame by rows: r20 r21 r22 is the\n"
+    "table's normal, up, in the object frame.\n";
 
 }  // namespace
 
@@ -99,6 +103,7 @@ void AddPosesCommand(CLI::App* app) {
       app->add_subcommand("poses", "Compute the stable poses of objects and their probabilities");
   command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
   command->add_option("--out", flags->out, "poses (CSV). Without it they go to standard output");
+  AddUnits(command, &flags->units, ", for com_height");
   command->add_option("--threads", flags->threads, "threads; 0 = all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -7,6 +7,7 @@
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
+#include "antigrasp/app/flags.h"
 #include "antigrasp/app/network_commands.h"
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/checkpoints/pretrained.h"
@@ -57,6 +58,7 @@ RunConfig ReadConfig(const TrainFlags& flags) {
     config.start.clear();
     config.fine_tune = false;
   }
+  WarnOfLengths(config.metric);
   Validate(config, flags.config.empty() ? "configuration" : flags.config);
   return config;
 }

@@ -53,12 +53,8 @@ std::vector<InputObject> LoadUsable(const TrialFlags& flags) {
 std::vector<TrialReading> RunReadings(const TrialFlags& flags,
                                       const std::vector<InputObject>& objects, MetricOptions metric,
                                       const TrialOptions& options) {
-  if (flags.millimetres) metric.object_min_extent = 0.0;
   std::vector<TriangleMesh> meshes;
-  for (const InputObject& object : objects) {
-    meshes.push_back(
-        Transformed(object.mesh, flags.millimetres ? 1e-3 : 1.0, Eigen::Vector3d::Zero()));
-  }
+  for (const InputObject& object : objects) meshes.push_back(object.mesh);
   ConsoleObserver console;
   std::vector<TrialReading> all;
   const auto chosen = FindChoice<FrictionReading>(flags.reading);
@@ -75,10 +71,9 @@ std::vector<TrialReading> RunReadings(const TrialFlags& flags,
 std::string Constants(const TrialFlags& flags) {
   return "seed = " + std::to_string(flags.seed) +
          "\nfriction_angle = " + FormatDouble(flags.friction_angle) + "\nreading = \"" +
-         flags.reading + "\"\nmillimetres = " + (flags.millimetres ? "true" : "false") +
-         "\n# Not used below: metric.friction, which the friction angle sets, and "
-         "metric.percentile" +
-         (flags.millimetres ? ", metric.object_min_extent" : "") + ".\n\n";
+         flags.reading +
+         "\"\n# Not used below: metric.friction, which the friction angle sets, and "
+         "metric.percentile.\n\n";
 }
 
 void Trial(const TrialFlags& flags, const OptionFlags& trial_flags,
@@ -88,8 +83,13 @@ void Trial(const TrialFlags& flags, const OptionFlags& trial_flags,
   Bind(&table, &options);
   trial_flags.Apply(&table);
   MetricOptions metric = metric_flags.Resolve();
+  if (flags.millimetres) {
+    metric.object_min_extent = 0.0;
+    metric.units = LengthUnit::kMm;
+  }
   if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
   const std::vector<InputObject> objects = LoadUsable(flags);
+  WarnOfSizes(objects, metric);
   const std::vector<TrialReading> all = RunReadings(flags, objects, metric, options);
   std::vector<std::string> names;
   for (const InputObject& object : objects) names.push_back(object.name);
@@ -129,9 +129,7 @@ void AddTrialCommand(CLI::App* app) {
   command->add_option("--reading", flags->reading, Alternatives(readings))
       ->check(CLI::IsMember(readings))
       ->capture_default_str();
-  command->add_flag("--mm", flags->millimetres,
-                    "coordinates are millimetres and objects keep their size; else each is "
-                    "rescaled to --object-min-extent");
+  CLI::Option* mm = command->add_flag("--mm", flags->millimetres, "--units mm --true-size");
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
   command->add_option("--threads", flags->threads, "threads; 0 = all; results do not depend on it")
       ->check(CLI::Range(0, 1024))
@@ -142,6 +140,7 @@ void AddTrialCommand(CLI::App* app) {
   for (const char* name : {"--friction", "--percentile"}) {
     command->remove_option(command->get_option(name));
   }
+  for (const char* name : {"--units", "--object-min-extent"}) mm->excludes(name);
   command->footer(kAboutTrial);
   command->callback(
       [flags, trial_flags, metric_flags] { Trial(*flags, *trial_flags, *metric_flags); });

@@ -1,9 +1,12 @@
 #include "antigrasp/app/flags.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cstdint>
 
 #include "antigrasp/core/format.h"
+#include "antigrasp/quality/object_size.h"
 
 namespace antigrasp {
 namespace {
@@ -75,10 +78,18 @@ MetricFlags::MetricFlags(CLI::App* command)
       preset_(AddName(command, "--preset", "default",
                       "all constants: " + Alternatives(MetricPresetNames()))),
       noise_(AddName(command, "--noise", "", "noise alone: " + Alternatives(NoisePresetNames()))),
-      options_(MetricOptionFlags(command)) {}
+      options_(MetricOptionFlags(command)) {
+  command
+      ->add_flag("--true-size", *true_size_,
+                 "score objects at the size they have, their coordinates in --units, instead of "
+                 "rescaling each")
+      ->group("Metric")
+      ->excludes("--object-min-extent");
+}
 
 bool MetricFlags::given() const {
-  return options_.given() || command_->count("--preset") > 0 || command_->count("--noise") > 0;
+  return options_.given() || command_->count("--preset") > 0 || command_->count("--noise") > 0 ||
+         *true_size_;
 }
 
 MetricOptions MetricFlags::Resolve() const {
@@ -88,7 +99,18 @@ MetricOptions MetricFlags::Resolve() const {
   OptionTable table;
   Bind(&table, &options);
   options_.Apply(&table);
+  if (*true_size_) options.object_min_extent = 0.0;
+  WarnOfLengths(options);
   return options;
+}
+
+void WarnOfLengths(const MetricOptions& metric) {
+  for (const std::string& text : UnlikelyLengths(metric)) spdlog::warn("{}", text);
+}
+
+void AddUnits(CLI::App* command, LengthUnit* units, const std::string& help) {
+  AddChoice(command, "--units", units,
+            "what the coordinates are in: " + Alternatives(ChoiceNames<LengthUnit>()) + help);
 }
 
 }  // namespace antigrasp

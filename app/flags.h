@@ -26,11 +26,12 @@ class OptionFlags {
 };
 
 // The metric's constants as flags of a command: one per "metric.*" and "gripper.*" option,
-// --preset NAME and --noise PRESET. Single constants win over --noise, --noise over --preset.
+// --preset NAME, --noise PRESET and --true-size. Single constants win over --noise, --noise over
+// --preset.
 class MetricFlags {
  public:
   explicit MetricFlags(CLI::App* command);
-  // Both after parsing.
+  // Both after parsing. Warns of lengths that can hardly be in metres.
   MetricOptions Resolve() const;
   const std::string& preset() const { return *preset_; }
   bool given() const;  // whether any of them was on the command line
@@ -38,8 +39,15 @@ class MetricFlags {
  private:
   CLI::App* command_;
   std::shared_ptr<std::string> preset_, noise_;
+  std::shared_ptr<bool> true_size_ = std::make_shared<bool>(false);
   OptionFlags options_;
 };
+
+// Warnings for lengths that can hardly be in metres (UnlikelyLengths).
+void WarnOfLengths(const MetricOptions& metric);
+
+// --units of a command without the metric's constants; the target must live until it has run.
+void AddUnits(CLI::App* command, LengthUnit* units, const std::string& help);
 
 // A number in [low, high]; unlike CLI::Range it refuses nan.
 CLI::Validator NumberIn(double low, double high);

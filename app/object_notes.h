@@ -3,10 +3,14 @@
 #include <vector>
 
 #include "antigrasp/datasets/objects.h"
+#include "antigrasp/quality/metric_options.h"
 
 namespace antigrasp {
 
 // A warning for every object that was repaired, read otherwise than its file says, or not read.
 void WarnOfNotes(const std::vector<InputObject>& objects);
+
+// Warnings for sizes that speak for another unit than --units (UnlikelySizes).
+void WarnOfSizes(const std::vector<InputObject>& objects, const MetricOptions& metric);
 
 }  // namespace antigrasp

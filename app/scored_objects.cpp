@@ -16,13 +16,15 @@ double ScoredObject::Value() const {
 
 ScoredObject ScoreObject(const InputObject& object, std::int64_t stream,
                          const MetricOptions& metric, std::uint64_t seed) {
-  ScoredObject scored{object.name, object.status, object.note, Eigen::Vector3d::Zero(), {}};
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  ScoredObject scored{object.name, object.status, object.note, none, none, {}};
   scored.score.status = GraspabilityStatus::kNotEvaluable;
   if (!object.ok()) return scored;
   scored.score =
       EvaluateGraspability(object.mesh, metric, seed, static_cast<std::uint64_t>(stream));
   scored.status = Name(scored.score.status);
   scored.center_of_mass = CenterOfMass(object.mesh);
+  scored.extent = Bounds(object.mesh).Extent();
   return scored;
 }
 
@@ -51,6 +53,12 @@ ScoreRow RowOf(const ScoredObject& scored, bool egad, const double* baseline) {
   if (baseline != nullptr) {
     row.extras.emplace_back("baseline", *baseline);
     row.extras.emplace_back("difference", scored.Value() - *baseline);
+  }
+  const bool has_size = row.score.has_value();
+  row.extras.emplace_back("metres_per_unit", has_size ? scored.score.scale : std::nan(""));
+  for (int axis = 0; axis < 3; ++axis) {
+    row.extras.emplace_back(std::string("extent_") + "xyz"[axis],
+                            has_size ? scored.extent[axis] : std::nan(""));
   }
   return row;
 }

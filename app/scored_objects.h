@@ -13,7 +13,7 @@ namespace antigrasp {
 // is not usable.
 struct ScoredObject {
   std::string name, status, note;
-  Eigen::Vector3d center_of_mass;  // in the unit of the mesh; only of a scored one
+  Eigen::Vector3d center_of_mass, extent;  // in the unit of the mesh; only of a scored one
   Graspability score;
   double Value() const;  // the graspability, NaN when there is none
 };

@@ -8,6 +8,7 @@
 #include "antigrasp/perturb/search_projection.h"
 #include "antigrasp/perturb/validity.h"
 #include "antigrasp/quality/graspability.h"
+#include "antigrasp/quality/object_size.h"
 
 namespace antigrasp {
 namespace {
@@ -101,7 +102,8 @@ class SearchRun {
   }
 
   void Step(int step) {
-    const TriangleMesh metres = Transformed(work_, MetresPerUnit(), Vector3d::Zero());
+    const double scale = MetresPerUnit(metric_, Bounds(work_).Extent());
+    const TriangleMesh metres = Transformed(work_, scale, Vector3d::Zero());
     const auto grasps = SampleAttackGrasps(metres, metric_, options_.objective, pool_, seed_,
                                            static_cast<std::uint64_t>(step));
     const SmoothPercentile objective =
@@ -147,11 +149,6 @@ class SearchRun {
 
  private:
   double Alpha() const { return options_.alpha * kDegree; }
-
-  double MetresPerUnit() const {
-    if (!(metric_.object_min_extent > 0.0)) return 1.0;
-    return metric_.object_min_extent / Bounds(work_).Extent().minCoeff();
-  }
 
   // Passes of smoothing in this step: options.coarse at first, none from half way on.
   int Coarseness(int step) const {

@@ -10,6 +10,7 @@
 #include "antigrasp/mesh/place.h"
 #include "antigrasp/mesh/ray_scene.h"
 #include "antigrasp/quality/adaptive_draws.h"
+#include "antigrasp/quality/object_size.h"
 #include "antigrasp/quality/parallel_jaws.h"
 
 namespace antigrasp {
@@ -28,13 +29,12 @@ bool Finite(const TriangleMesh& mesh) {
                      [](const Eigen::Vector3d& v) { return v.allFinite(); });
 }
 
-// The factor that brings the smallest extent to options.object_min_extent; 0 when the mesh has no
-// usable size.
+// Metres per unit of the mesh; 0 when it has no usable size.
 double ScaleToMetres(const TriangleMesh& mesh, const MetricOptions& options) {
   if (mesh.faces.empty() || !IndicesInRange(mesh) || !Finite(mesh)) return 0.0;
   const Eigen::Vector3d extent = Bounds(mesh).Extent();
   const double smallest = extent.minCoeff();
-  const double scale = options.object_min_extent > 0.0 ? options.object_min_extent / smallest : 1.0;
+  const double scale = MetresPerUnit(options, extent);
   // The ray tree holds floats: sizes beyond their range cannot be evaluated.
   const bool usable = smallest > 0.0 && std::isfinite(scale) && extent.maxCoeff() * scale < 1e18;
   return usable ? scale : 0.0;

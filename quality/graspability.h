@@ -39,7 +39,7 @@ struct Graspability {
   double fraction_nonzero = 0.0;  // share of grasps with quality > 0
   int attempts = 0;               // candidates tried
   RejectedGrasps rejected;        // the others
-  double scale = 1.0;             // metres per mesh unit (object_min_extent / smallest extent)
+  double scale = 1.0;             // metres per mesh unit (object_size.h)
   double seconds = 0.0;           // wall time; not deterministic
   std::vector<ScoredGrasp> grasps;
 };

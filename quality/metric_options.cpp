@@ -111,7 +111,11 @@ void Bind(OptionTable* table, MetricOptions* options) {
              "torque that a contact carries about its normal, per force: none (two such fingers "
              "score 0), dexnet (pi r^2 mu) or uniform_pressure (2/3 r mu)");
   table->Add("metric.object_min_extent", &o.object_min_extent, 0.0, 100.0,
-             "smallest bounding-box extent after rescaling, m; 0 = as it is");
+             "smallest bounding-box extent after rescaling, m; 0 = as it is (--true-size)");
+  table->Add(
+      "metric.units", &o.units,
+      "what the meshes' coordinates are in: mm, cm, m or in (of an SDF file: the side of its "
+      "cube); counts where objects keep their size");
   table->Add("metric.jaw_opening", &o.jaw_opening, 1e-6, 100.0, "widest grasp, m");
   table->Add("metric.num_grasps", &o.num_grasps, 1, 1e6, "grasps scored per object");
   table->Add("metric.num_draws", &o.num_draws, 1, 1e6, "noise draws per grasp");

@@ -6,6 +6,7 @@
 
 #include "antigrasp/core/choice.h"
 #include "antigrasp/core/options.h"
+#include "antigrasp/mesh/length_unit.h"
 #include "antigrasp/quality/epsilon.h"
 #include "antigrasp/quality/gripper.h"
 
@@ -48,6 +49,7 @@ struct MetricOptions {
   double friction_std = 0.1;
   Collision collision = Collision::kGripper;
   GripperModel gripper;
+  LengthUnit units = LengthUnit::kM;  // of the meshes; counts where objects keep their size
 };
 
 // Sets every constant to "default" (above), "dexnet" or "egad". Dex-Net: test/config.yaml of

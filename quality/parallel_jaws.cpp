@@ -30,7 +30,7 @@ class Jaws final : public GraspModel {
   }
 
   std::vector<std::string> Reasons() const override {
-    return {"nothing within the opening", "slip", "jaw blocked", "gripper collides"};
+    return {kTooWide, "slip", "jaw blocked", "gripper collides"};
   }
 
   std::optional<Grasp> Candidate(RngStream* rng, std::size_t* why) const override {

@@ -61,7 +61,7 @@ std::vector<ScoreRow> ReadScores(const std::filesystem::path& path) {
                                csv.NumberOrGap(nonzero),
                                count >= 0.0 && count < 1e9 ? static_cast<int>(count) : 0};
     }
-    for (const char* name : {"seconds", "egad", "baseline", "difference"}) {
+    for (const char* name : kScoreExtras) {
       const auto extra = csv.Column(name);
       if (extra) row.extras.emplace_back(name, csv.NumberOrGap(*extra));
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,12 +22,16 @@ struct ScoreSummary {
 // nullopt when the object is not evaluable.
 std::optional<ScoreSummary> SummaryOf(const Graspability& score);
 
+// What `evaluate` adds, in this order; older tables have the first four at most.
+inline constexpr std::array kScoreExtras = {"seconds",         "egad",     "baseline", "difference",
+                                            "metres_per_unit", "extent_x", "extent_y", "extent_z"};
+
 // A row of scores.csv, of `evaluate` or of a run's stage.
 struct ScoreRow {
   std::string object, status;
   std::optional<ScoreSummary> score;  // none for an object that was not scored
-  // Columns beyond those of a run ("seconds", "egad", "baseline", "difference"), the same ones in
-  // every row of a table; NaN is a gap.
+  // Columns beyond those of a run (kScoreExtras), the same ones in every row of a table; NaN is
+  // a gap.
   std::vector<std::pair<std::string, double>> extras = {};
 };
 

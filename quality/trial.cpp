@@ -72,6 +72,7 @@ class Bench {
   std::vector<ScoredGrasp> Plan(std::uint64_t seed, std::uint64_t object) const {
     MetricOptions in_metres = metric_;
     in_metres.object_min_extent = 0.0;
+    in_metres.units = LengthUnit::kM;
     std::vector<ScoredGrasp> grasps = EvaluateGraspability(mesh_, in_metres, seed, object).grasps;
     std::stable_sort(grasps.begin(), grasps.end(), [](const ScoredGrasp& a, const ScoredGrasp& b) {
       return a.quality > b.quality;

@@ -9,6 +9,7 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
 #include "antigrasp/datasets/objects.h"
+#include "antigrasp/quality/object_size.h"
 #include "antigrasp/quality/score_table.h"
 
 namespace antigrasp {
@@ -158,12 +159,15 @@ Report ObjectsReport(const ReportSettings& settings, RunObserver* observer) {
       },
       [&](std::int64_t i) { return streams[static_cast<std::size_t>(i)]; }, metric.metric,
       metric.seed, settings.threads, observer->Phase("scoring"));
+  UnlikelySizes sizes(metric.metric);
   for (std::size_t i = 0; i < scores.size(); ++i) {
     ReportObject& object = report.objects[i];
     if (object.status != "ok") continue;
+    sizes.Add(object.name, Bounds(object.shape.mesh).Extent(), &scores[i]);
     object.status = std::string(Name(scores[i].status));
     object.shape = ShapeOf(std::move(object.shape.mesh), scores[i]);
   }
+  for (std::string& text : sizes.Texts()) report.missing.push_back(std::move(text));
   return report;
 }
 

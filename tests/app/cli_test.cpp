@@ -15,6 +15,7 @@
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/sdf/remesh.h"
 #include "tests/app/run_binary.h"
+#include "tests/support/csv_rows.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
 
@@ -167,8 +168,10 @@ TEST(Cli, EvaluatePairsChangedObjectsWithTheirOriginalsUnderEqualRandomNumbers) 
   EXPECT_NE(outcome.text.find("paired difference -"), std::string::npos) << outcome.text;
   EXPECT_NE(outcome.text.find("candidate grasps"), std::string::npos) << outcome.text;
   const std::string csv = ReadFile(folder / "s.csv");
-  EXPECT_NE(csv.find("seconds,baseline,difference\n"), std::string::npos) << csv;
-  EXPECT_TRUE(csv.ends_with(",0\n")) << csv;  // same.stl: not a draw differs
+  EXPECT_NE(csv.find("seconds,baseline,difference,metres_per_unit,"), std::string::npos) << csv;
+  const auto same = shapes::CsvRows(folder / "s.csv").back();
+  EXPECT_EQ(same.at("object"), "same.stl");
+  EXPECT_EQ(same.at("difference"), "0");  // not a draw differs
   const Outcome unpaired =
       Antigrasp("evaluate " + dir + "before --baseline " + dir + "before/ball.stl");
   EXPECT_EQ(unpaired.code, 2);
@@ -210,7 +213,7 @@ TEST(Cli, EvaluateWritesARowPerObjectAndNamesTheBadOnes) {
   const std::string csv = ReadFile(folder / "s.csv");
   EXPECT_TRUE(
       csv.starts_with("object,status,num_grasps,graspability,ci_low,ci_high,mean,"
-                      "fraction_nonzero,seconds\n"));
+                      "fraction_nonzero,seconds,metres_per_unit,extent_x,extent_y,extent_z\n"));
   EXPECT_NE(csv.find("ball.stl,ok,100,"), std::string::npos) << csv;
   EXPECT_NE(csv.find("inside_out.obj,ok,100,"), std::string::npos) << csv;
   EXPECT_NE(csv.find("noise.off,not readable,0,,"), std::string::npos) << csv;
@@ -231,14 +234,14 @@ TEST(Cli, EgadPresetAddsItsScoreAndOtherFlagsWinOverThePreset) {
   }
   ASSERT_EQ(Antigrasp(evaluate + "egad.csv --preset egad").code, 0);
   const std::string csv = ReadFile(folder / "egad.csv");
-  ASSERT_NE(csv.find(",seconds,egad\n"), std::string::npos) << csv;
+  ASSERT_NE(csv.find(",seconds,egad,metres_per_unit,"), std::string::npos) << csv;
   const std::string row = csv.substr(csv.find('\n') + 1);
   ASSERT_TRUE(row.starts_with("box.stl,ok,100,")) << row;
   const double graspability = std::stod(row.substr(std::string("box.stl,ok,100,").size()));
   EXPECT_GT(graspability, 0.002);  // of at most 0.003927, the torsion cap
   EXPECT_LT(graspability, 0.003927);
-  EXPECT_NEAR(std::stod(row.substr(row.rfind(',') + 1)), (graspability - 0.0005) / 0.0035 * 100.0,
-              1e-9);
+  EXPECT_NEAR(std::stod(shapes::CsvRows(folder / "egad.csv").front().at("egad")),
+              (graspability - 0.0005) / 0.0035 * 100.0, 1e-9);
   ASSERT_EQ(Antigrasp(evaluate + "plain.csv --num-grasps 10").code, 0);
   EXPECT_EQ(ReadFile(folder / "plain.csv").find("egad"), std::string::npos);
 }

@@ -29,7 +29,8 @@ MetricOptions Unusual() {
           0.04,
           0.05,
           Collision::kJaws,
-          {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 9}};
+          {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 9},
+          LengthUnit::kIn};
 }
 
 void ExpectEqual(const MetricOptions& a, const MetricOptions& b) {
@@ -61,6 +62,7 @@ void ExpectEqual(const MetricOptions& a, const MetricOptions& b) {
   EXPECT_EQ(a.gripper.palm_width, b.gripper.palm_width);
   EXPECT_EQ(a.gripper.approach_distance, b.gripper.approach_distance);
   EXPECT_EQ(a.gripper.approach_angles, b.gripper.approach_angles);
+  EXPECT_EQ(a.units, b.units);
 }
 
 TEST(MetricOptions, EveryFieldSurvivesTheConfigurationFile) {
@@ -68,7 +70,7 @@ TEST(MetricOptions, EveryFieldSurvivesTheConfigurationFile) {
   OptionTable out, in;
   Bind(&out, &written);
   Bind(&in, &read);
-  EXPECT_EQ(out.options().size(), 28u);
+  EXPECT_EQ(out.options().size(), 29u);
   in.ApplyText(out.Dump(), "dump");
   ExpectEqual(read, Unusual());
 }
@@ -81,6 +83,7 @@ TEST(MetricOptions, EveryKeyIsBoundToItsFieldAndEveryDefaultIsItsNumber) {
                                       "metric.torque_scale = 1000.0",
                                       "metric.torsion = 'dexnet'",
                                       "metric.object_min_extent = 0.04",
+                                      "metric.units = 'm'",
                                       "metric.jaw_opening = 0.05",
                                       "metric.num_grasps = 100",
                                       "metric.num_draws = 25",
@@ -109,6 +112,7 @@ TEST(MetricOptions, EveryKeyIsBoundToItsFieldAndEveryDefaultIsItsNumber) {
                                                           "metric.torque_scale = 900.0",
                                                           "metric.torsion = 'none'",
                                                           "metric.object_min_extent = 0.03",
+                                                          "metric.units = 'in'",
                                                           "metric.jaw_opening = 0.06",
                                                           "metric.num_grasps = 11",
                                                           "metric.num_draws = 12",
@@ -262,6 +266,7 @@ TEST(MetricOptions, EveryKeyRefusesAValueJustOutsideItsRange) {
   EXPECT_THROW(table.ApplyOverride("metric.no_such_key=1"), InputError);
   EXPECT_THROW(table.ApplyOverride("metric.collision=jaw"), InputError);
   EXPECT_THROW(table.ApplyOverride("metric.torsion=rubber"), InputError);
+  EXPECT_THROW(table.ApplyOverride("metric.units=inch"), InputError);
   EXPECT_THROW(table.ApplyOverride("gripper.approach_angles=0"), InputError);
   ExpectEqual(options, MetricOptions{});
 }
