@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "antigrasp/core/format.h"
+#include "antigrasp/quality/object_size.h"
 
 namespace antigrasp {
 namespace {
@@ -37,7 +38,8 @@ std::string NoiseText(const MetricOptions& m) {
 Json MetricJson(const MetricOptions& m) {
   return {{"percentile", m.percentile}, {"friction", m.friction},
           {"num_grasps", m.num_grasps}, {"num_draws", m.num_draws},
-          {"noise", NoiseText(m)},      {"finger_radius", m.finger_radius}};
+          {"noise", NoiseText(m)},      {"finger_radius", m.finger_radius},
+          {"size", SizeText(m)}};
 }
 
 Json GripperJson(const MetricOptions& m) {

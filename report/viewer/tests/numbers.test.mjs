@@ -301,6 +301,10 @@ describe("perturbed objects", () => {
       ["suggested pose", "–"],
     ]);
     assert.match(plain(await page.locator(".big-change").innerText()), /^−75\.0 %/);
+    assert.equal(
+      plain(await page.locator(".lengths").innerText()),
+      "Lengths are millimetres of the object as scored, each scaled to a smallest extent of 40 mm: 10.0 × 20.0 × 40.0.",
+    );
     // 0.4 units of 50 mm.
     assert.match(plain(await page.locator(".readout").innerText()), /after\s+quality 3\.00 × 10⁻³, width 20\.0 mm/);
     await page.getByLabel(/distance to the original/).check();

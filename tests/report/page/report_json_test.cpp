@@ -55,6 +55,8 @@ TEST(ReportJson, TheMetricAndTheGripperAreInMetresAndTheNoiseInWords) {
   m.grasp_rotation_std = 0.02;
   m.friction_std = 0.125;
   m.jaw_opening = 0.08;
+  m.object_min_extent = 0.0;
+  m.units = LengthUnit::kIn;
   m.gripper = {.palm_distance = 0.01,
                .fingertip_overlap = 0.02,
                .finger_width = 0.03,
@@ -63,9 +65,10 @@ TEST(ReportJson, TheMetricAndTheGripperAreInMetresAndTheNoiseInWords) {
                .palm_length = 0.06,
                .palm_width = 0.07};
   const Json json = HeadJson(report);
-  EXPECT_EQ(json["metric"], Json::parse(R"({
+  EXPECT_EQ(json["metric"], Json::parse(R"j({
       "percentile": 71, "friction": 0.7, "num_grasps": 11, "num_draws": 12, "finger_radius": 0.006,
-      "noise": "object 2.5 mm, 0.01 rad; grasp 1.5 mm, 0.02 rad; friction 0.125"})"));
+      "noise": "object 2.5 mm, 0.01 rad; grasp 1.5 mm, 0.02 rad; friction 0.125",
+      "size": "at true size (in)"})j"));
   EXPECT_EQ(json["gripper"], Json::parse(R"({
       "palm_distance": 0.01, "fingertip_overlap": 0.02, "finger_width": 0.03,
       "finger_thickness": 0.04, "palm_depth": 0.05, "palm_length": 0.06, "palm_width": 0.07,

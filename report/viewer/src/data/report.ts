@@ -100,6 +100,8 @@ export interface Metric {
   num_draws?: Num;
   noise?: string | null;
   finger_radius?: Num;
+  /** At which size objects are scored, in words. */
+  size?: string | null;
 }
 
 export interface Report {

@@ -8,6 +8,16 @@ import { objectLink } from "../router";
 import type { Surface } from "../three/surface";
 import { galleryOrder } from "./gallery_order";
 
+/** In what all lengths of the page are but those of the print: one unit, at one size. */
+function lengthsNote(report: Report, object: ObjectRecord): HTMLElement | null {
+  const mesh = meshOf(object);
+  if (!mesh) return null;
+  const size = [0, 1, 2].map((k) => fixed((mesh.max[k] - mesh.min[k]) * 1000 * object.metres_per_unit, 1)).join(" × ");
+  const scored = object.score ? `of the object as scored${report.metric?.size ? `, ${report.metric.size}` : ""}` : "";
+  const says = `Lengths are millimetres ${scored || "if a unit of the mesh is a metre"}: ${size}.`;
+  return h("p", { class: "note lengths" }, says);
+}
+
 /** Name and facts of an object, and the way to its neighbours. */
 export function objectHead(report: Report, object: ObjectRecord, index: number): HTMLElement {
   const order = galleryOrder(report);
@@ -36,6 +46,7 @@ export function objectHead(report: Report, object: ObjectRecord, index: number):
     ),
     h("h1", { tabindex: -1 }, object.name),
     h("p", { class: "lead" }, facts.filter(Boolean).join(" · ")),
+    lengthsNote(report, object),
     isRejected(object) ? h("p", { class: "notice bad" }, `Rejected: ${object.status}`) : null,
   );
 }

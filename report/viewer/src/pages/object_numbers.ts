@@ -93,6 +93,7 @@ export function printTable(object: ObjectRecord): HTMLElement | null {
     "section",
     { class: "panel-box" },
     h("h2", {}, "Print check"),
+    h("p", { class: "note" }, "Lengths here are millimetres of the object as printed."),
     rowsOf(rows, null),
     print.notes?.length ? h("ul", { class: "warnings" }, ...print.notes.map((note) => h("li", {}, note))) : null,
   );

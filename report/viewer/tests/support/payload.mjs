@@ -133,6 +133,7 @@ export const METRIC = {
   num_draws: 25,
   noise: "object 2.5 mm",
   finger_radius: 0.005,
+  size: "each scaled to a smallest extent of 40 mm",
 };
 
 export function emptyReport(more = {}) {
