@@ -1,5 +1,6 @@
 #include "antigrasp/app/console.h"
 
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -78,6 +79,11 @@ ProgressFn ConsoleObserver::Phase(const std::string& label) {
 }
 
 void ConsoleObserver::Detail(const std::string& text) { bar_->detail = text; }
+
+void ConsoleObserver::Note(const std::string& text) {
+  if (bar_->terminal) std::fputs("\r\033[K", stderr);
+  spdlog::info("{}", text);
+}
 
 bool ConsoleObserver::StopRequested() const { return InterruptRequested(); }
 

@@ -20,6 +20,7 @@ class ConsoleObserver : public RunObserver {
   ConsoleObserver();
   ProgressFn Phase(const std::string& label) override;
   void Detail(const std::string& text) override;
+  void Note(const std::string& text) override;
   bool StopRequested() const override;
 
  private:

@@ -15,6 +15,8 @@ class RunObserver {
   virtual ProgressFn Phase(const std::string& label) = 0;
   // Shown beside the current bar ("L_D 1.93  L_G 0.12").
   virtual void Detail(const std::string& text) = 0;
+  // A line that stays, above the bar.
+  virtual void Note(const std::string&) {}
   virtual bool StopRequested() const = 0;
 };
 

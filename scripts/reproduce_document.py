@@ -41,7 +41,7 @@ def pyplot():
 
 def save_figure(figure, path):
     figure.tight_layout()
-    IMAGES.mkdir(exist_ok=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=110, metadata={"Software": None})
 
 

@@ -6,8 +6,9 @@ import re
 import shutil
 import time
 
-from reproduce_document import DOCUMENT, IMAGES, SETS, call, commit, means, pyplot, save_figure, write_section
+from reproduce_document import DOCUMENT, SETS, call, commit, means, pyplot, save_figure, write_section
 
+QUICK_OBJECTS = 20
 HISTORY = ("iteration", "pairs", "pairs_below_cone")  # columns of history.csv
 
 
@@ -141,11 +142,11 @@ def table(settings, runner):
     return "\n".join(lines)
 
 
-def distributions(name, columns, runner):
+def distributions(name, columns, runner, images):
     """A picture for every set, a row for every setting: an object before and after, and the graspability of all."""
     for kind in SETS:
         call("figure", 3, *(runner.folder(setting, kind) for setting in columns),
-             "--label", *(setting.label for setting in columns), "--out", IMAGES / f"{name}_{kind}.png")
+             "--label", *(setting.label for setting in columns), "--out", images / f"{name}_{kind}.png")
     return "\n\n".join(f"![Graspability of {kind} before and after](images/{name}_{kind}.png)" for kind in SETS)
 
 
@@ -191,17 +192,20 @@ def picture(path, columns, runner):
     call("sheet", *rows, "--pixels", 180, "--out", path)
 
 
-def analytic(runner, objects, started):
+def analytic(runner, objects, started, document=DOCUMENT, quick=""):
+    """Writes the section into the document, and its pictures into images/ beside it."""
+    images = document.parent / "images"
+    images.mkdir(parents=True, exist_ok=True)
     random, rotation, search = random_settings(), rotation_settings(), search_settings()
     tables = [table(part, runner) for part in (random, rotation, search)]
-    of_random = distributions("analytic_random", random[:3] + search, runner)
-    of_rotation = distributions("analytic_rotation", rotation[1:7], runner)
-    picture(IMAGES / "perturbed.png", [random[0], random[2], rotation[5], *search], runner)
-    figure_1(IMAGES / "analytic_exhaustive.png", runner)
+    of_random = distributions("analytic_random", random[:3] + search, runner, images)
+    of_rotation = distributions("analytic_rotation", rotation[1:7], runner, images)
+    picture(images / "perturbed.png", [random[0], random[2], rotation[5], *search], runner)
+    figure_1(images / "analytic_exhaustive.png", runner)
     write_section("analytic", f"""
 ## Sections VI-A and VI-B: analytic perturbations
 
-`scripts/reproduce analytic`, commit {commit()}, {objects} objects a set, {(time.time() - started) / 60:.0f} minutes.
+`scripts/reproduce analytic{quick}`, commit {commit()}, {objects} objects a set, {(time.time() - started) / 60:.0f} minutes.
 
 Every cell names cylinders / prisms / bottles. The reduction is that of mean graspability (kappa) from the originals to the
 printable results, ± its 95 % interval over objects, equal random draws before and after; "broken" is the share without a
@@ -239,25 +243,31 @@ Random perturbation and search, then antipodal rotation (`antigrasp figure 3`; i
 {of_random}
 
 {of_rotation}
-""")
+""", document)
 
 
-def main():
+def main(arguments=None):
     parser = argparse.ArgumentParser(prog="scripts/reproduce")
     parser.add_argument("what", choices=("analytic", "readings", "search"))
-    parser.add_argument("--objects", type=int, help="objects a set (100; readings: 40; search: 20)")
+    parser.add_argument("--objects", type=int, help=f"objects a set (100; --quick: {QUICK_OBJECTS}; readings: 40; search: 20)")
     parser.add_argument("--out", type=pathlib.Path, help="folder of the runs (runs/analytic)")
-    arguments = parser.parse_args()
+    parser.add_argument("--quick", action="store_true",
+                        help=f"analytic: {QUICK_OBJECTS} objects a set, ten minutes on two cores, into a page of its own")
+    arguments = parser.parse_args(arguments)
+    if arguments.quick and arguments.what != "analytic":
+        parser.error("--quick is for analytic")
     settings = {"analytic": random_settings() + rotation_settings() + search_settings(),
                 "readings": reading_settings(), "search": search_variants()}[arguments.what]
-    objects = arguments.objects or {"analytic": 100, "readings": 40, "search": 20}[arguments.what]
+    usual = {"analytic": QUICK_OBJECTS if arguments.quick else 100, "readings": 40, "search": 20}[arguments.what]
+    objects = arguments.objects or usual
     started = time.time()
     runner = Runner((arguments.out or pathlib.Path("runs") / arguments.what) / str(objects), objects, settings)
     for kind in SETS:
         runner.prior(kind)
     if arguments.what == "analytic":
-        analytic(runner, objects, started)
-        print(f"wrote {DOCUMENT}")
+        document = runner.out / "analytic.md" if arguments.quick else DOCUMENT
+        analytic(runner, objects, started, document, " --quick" if arguments.quick else "")
+        print(f"wrote {document}")
     else:
         print(table(settings, runner))
 

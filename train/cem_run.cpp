@@ -49,12 +49,8 @@ void RequireNoRun(const RunFolder& run) {
 }
 
 // Networks to start from must be those the configuration describes.
-void RequireSameModel(const RunConfig& config) {
-  if (config.start.empty()) return;
-  const fs::path path = FindNetworks(config.start);
-  const std::string theirs =
-      ModelToml(NetworksFromToml(ReadCheckpoint(path).config, path.string()).model);
-  std::istringstream ours_lines(ModelToml(config.model)), theirs_lines(theirs);
+void RequireSameModel(const RunConfig& config, const RunConfig& start) {
+  std::istringstream ours_lines(ModelToml(config.model)), theirs_lines(ModelToml(start.model));
   for (std::string ours, other; std::getline(ours_lines, ours);) {
     std::getline(theirs_lines, other);
     if (ours != other) {
@@ -63,6 +59,36 @@ void RequireSameModel(const RunConfig& config) {
                        setting(other) + ", as these networks have it");
     }
   }
+}
+
+// The shapes that networks have learnt: a kind that antigrasp makes, whatever their number and
+// seed, also from a file, or a file of others.
+bool SamePrior(const RunConfig& config, const RunConfig& start) {
+  if (!config.prior_file.empty() && config.prior_file == start.prior_file) return true;
+  const std::string kind =
+      config.prior_file.empty() ? config.prior.kind : ReadShapeSetInfo(config.prior_file).kind;
+  return start.prior_file.empty() && kind == start.prior.kind;
+}
+
+// Networks that have not seen the prior set are no episode 0 of it, unless they are trained on.
+void RequireSamePrior(const RunConfig& config, const RunConfig& start) {
+  if (config.fine_tune || SamePrior(config, start)) return;
+  const auto setting = [](const RunConfig& c) {
+    return c.prior_file.empty() ? "prior.kind=" + c.prior.kind : "prior.file=" + c.prior_file;
+  };
+  throw InputError("networks of another prior set than " + setting(config),
+                   "run.start = " + config.start,
+                   "--fine-tune to train them on with it first, --from-scratch for new ones, or "
+                   "--set " +
+                       setting(start) + ", which they have learnt");
+}
+
+void RequireFittingStart(const RunConfig& config) {
+  if (config.start.empty()) return;
+  const fs::path path = FindNetworks(config.start);
+  const RunConfig start = NetworksFromToml(ReadCheckpoint(path).config, path.string());
+  RequireSameModel(config, start);
+  RequireSamePrior(config, start);
 }
 
 // The control begins where the run it belongs to ended episode 0: same networks, same prior.
@@ -110,7 +136,7 @@ RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver*
   const RunFolder run{folder};
   RequireNoRun(run);
   Validate(config, "configuration");
-  RequireSameModel(config);
+  RequireFittingStart(config);
   make(config);  // refuses a device that is not there, first
   const RunLock lock(run);
   RequireNoRun(run);   // that another process has begun and left

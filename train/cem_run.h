@@ -21,9 +21,10 @@ struct RunResult {
 // remesh, reject, score, keep the least graspable and retrain. `make` puts another shape model in
 // the GAN's place. Every file lands in `folder`, every step of it can be interrupted and resumed
 // with equal bytes on the CPU at equal threads.
-// InputError: the folder already holds a run, another process trains it (train/run_lock.h), or the
-// prior file is unusable. Interrupted: state
-// saved. RuntimeFailure: non-finite losses or no usable sample; the last checkpoint is intact.
+// InputError: the folder already holds a run, another process trains it (train/run_lock.h), the
+// prior file is unusable, or config.start has networks of another model or, without
+// config.fine_tune, of another prior set. Interrupted: state saved. RuntimeFailure: non-finite
+// losses or no usable sample; the last checkpoint is intact.
 RunResult StartRun(const RunConfig& config, const std::filesystem::path& folder,
                    RunObserver* observer, const ShapeModelMaker& make = MakeGan);
 

@@ -4,6 +4,7 @@
 #include <torch/types.h>
 
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/train/cem_loop.h"
+#include "antigrasp/train/forecast.h"
 #include "antigrasp/train/loss_table.h"
 #include "antigrasp/train/run_output.h"
 #include "antigrasp/train/scalar_log.h"
@@ -21,6 +23,7 @@ namespace antigrasp {
 namespace {
 
 namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 
 constexpr int kRecordEvery = 10;  // updates between rows of losses.csv
 
@@ -39,6 +42,7 @@ class FolderLoop {
   void TrainUpdates();
   void TrainStep();
   Episode FinishEpisode();
+  void TimeStage(double seconds);
   void Record(const Episode& episode);
   void BeginNext(const Episode& episode);
   void Save(const fs::path& path, bool finished = false) const;
@@ -52,6 +56,9 @@ class FolderLoop {
   CemLoop loop_;
   LossTable losses_;  // of this episode
   std::optional<ScalarLog> log_;
+  UpdateTimer timer_;
+  Pace pace_;          // as far as this process knows it
+  bool told_ = false;  // how long the run will take
   bool finished_ = false;
 };
 
@@ -72,8 +79,10 @@ std::vector<StageStatistics> FolderLoop::Run() {
   if (loop_.rows().empty()) ScorePrior();
   while (true) {
     TrainEpisode();
+    const auto start = Clock::now();
     const Episode finished = FinishEpisode();
     Record(finished);
+    TimeStage(std::chrono::duration<double>(Clock::now() - start).count());
     if (loop_.last()) {
       ExportLeastGraspable(finished.scored, config_, folder_);
       Save(folder_.Latest(), /*finished=*/true);
@@ -122,11 +131,14 @@ void FolderLoop::TrainEpisode() {
 }
 
 void FolderLoop::TrainUpdates() {
-  using Clock = std::chrono::steady_clock;
   const ProgressFn progress = observer_->Phase(StageName(episode(), "training"));
   Clock::time_point recorded = Clock::now();
   while (!loop_.trained()) {
     TrainStep();
+    if (timer_.Tick()) {
+      pace_.update = timer_.seconds();
+      observer_->Note(TrainingForecast(config_, pace_.update));
+    }
     if (model_->step() % kRecordEvery == 0) {
       losses_.rows.push_back(RowOf(model_->step(), model_->Scalars()));
       observer_->Detail(model_->ScalarText());
@@ -158,6 +170,14 @@ Episode FolderLoop::FinishEpisode() {
     throw RuntimeFailure(std::string(failure.what()) + "; the networks of that episode are in " +
                          folder_.Latest().string());
   }
+}
+
+// Says what is left as soon as that is known.
+void FolderLoop::TimeStage(double seconds) {
+  pace_.stage = seconds;
+  if (told_ || loop_.last() || std::isnan(SecondsLeft(config_, pace_, episode() + 1))) return;
+  told_ = true;
+  observer_->Note(RunForecast(config_, pace_, episode() + 1));
 }
 
 void FolderLoop::Record(const Episode& finished) {

@@ -41,6 +41,7 @@ class ProvenanceRecorder : public RunObserver {
 
   ProgressFn Phase(const std::string& label) override;
   void Detail(const std::string& text) override { observer_->Detail(text); }
+  void Note(const std::string& text) override { observer_->Note(text); }
   bool StopRequested() const override { return observer_->StopRequested(); }
 
   void Finish();

@@ -2,11 +2,14 @@
 import pathlib
 import tempfile
 import unittest
+from unittest import mock
 
 from scripts_path import markdown_rows
 
 import reproduce_document
 import reproduce_perturb
+
+DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs"
 
 
 def row(ok, reduction, half_width, turn="", hausdorff="", volume=""):
@@ -44,6 +47,34 @@ class Perturb(unittest.TestCase):
             "setting": "alpha 10", "paper": "32 / 12 / 32", "ours, %": "10 ±1 / 20 ±1 / -",
             "at Dex-Net's noise, %": "51 ±4 / 52 ±5 / -", "largest turn of a normal": "20 / - / -",
             "broken, %": "0 / 25 / 50", "Hausdorff, %": "0.1 / 0.2 / -", "volume, %": "4.5 / 4.5 / -"}])
+
+    def test_the_quick_way_writes_a_page_and_pictures_of_its_own(self):
+        published = {path: path.read_bytes() for path in DOCS.rglob("*") if path.is_file()}
+        calls = []
+
+        def call(*arguments):
+            calls.append([str(argument) for argument in arguments])
+            return ""
+
+        with tempfile.TemporaryDirectory() as folder, \
+                mock.patch.multiple(reproduce_perturb, call=call, table=lambda settings, runner: "A table.",
+                                    figure_1=lambda path, runner: path.touch()):
+            reproduce_perturb.main(["analytic", "--quick", "--out", folder])
+            own = pathlib.Path(folder, "20")
+            page = (own / "analytic.md").read_text()
+            self.assertTrue((own / "images/analytic_exhaustive.png").exists())
+        self.assertIn("`scripts/reproduce analytic --quick`, commit ", page)
+        self.assertIn(", 20 objects a set, ", page)
+        self.assertIn("(images/analytic_random_bottles.png)", page)
+        makes = [line for line in calls if line[:2] == ["dataset", "make"]]
+        self.assertEqual([line[2:5] for line in makes], [[kind, "--count", "20"] for kind in reproduce_perturb.SETS])
+        pictures = [line[line.index("--out") + 1] for line in calls if line[0] in ("figure", "sheet")]
+        self.assertEqual(len(pictures), 7)
+        for path in pictures:
+            self.assertEqual(pathlib.Path(path).parent, own / "images")
+        self.assertEqual({path: path.read_bytes() for path in DOCS.rglob("*") if path.is_file()}, published)
+        with self.assertRaises(SystemExit), mock.patch("sys.stderr"):
+            reproduce_perturb.main(["readings", "--quick"])
 
 
 if __name__ == "__main__":

@@ -153,6 +153,70 @@ TEST(CemRun, BeginsWithGivenNetworksInsteadOfTrainingThem) {
   EXPECT_FALSE(fs::exists(folder / "other"));
 }
 
+// What the refusal says to do is done at the end.
+TEST(CemRun, NetworksThatHaveNotLearntThePriorSetAreRefusedOrTrainedOn) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  TrainPrior(folder / "prior");  // of cylinders
+  const std::string mine = (folder / "mine.h5").string();
+  ShapeSet set = MakePriorSet({.kind = "prisms", .count = 8});
+  const std::string with_kind = (folder / "prisms.h5").string();
+  WriteShapeSet(with_kind, set);
+  set.kind = "meshes";
+  WriteShapeSet(mine, set);
+  RunConfig config = Tiny();
+  config.cem.episodes = 0;
+  config.start = (folder / "prior").string();
+  const auto refusal = [&](const RunConfig& refused) -> std::string {
+    try {
+      StartRun(refused, folder / "run", &observer);
+    } catch (const InputError& error) {
+      EXPECT_FALSE(fs::exists(folder / "run"));
+      return error.what();
+    }
+    return "";
+  };
+  const auto line = [&](const std::string& prior) {
+    return "networks of another prior set than " + prior + " (run.start = " + config.start +
+           "): expected --fine-tune to train them on with it first, --from-scratch for new ones, " +
+           "or --set prior.kind=cylinders, which they have learnt";
+  };
+  config.prior_file = mine;
+  EXPECT_EQ(refusal(config), line("prior.file=" + mine));
+  config.prior_file = with_kind;
+  EXPECT_EQ(refusal(config), line("prior.file=" + with_kind));
+  config.prior_file.clear();
+  config.prior.kind = "prisms";
+  EXPECT_EQ(refusal(config), line("prior.kind=prisms"));
+
+  config.prior_file = mine;
+  config.fine_tune = true;
+  StartRun(config, folder / "tuned", &observer);
+  // Those have learnt that file, and neither cylinders nor prisms.
+  config.fine_tune = false;
+  config.start = (folder / "tuned").string();
+  StartRun(config, folder / "again", &observer);
+  config.prior_file = with_kind;
+  EXPECT_TRUE(
+      refusal(config).ends_with("or --set prior.file=" + mine + ", which they have learnt"));
+}
+
+// Another number of cylinders, or a file of them, is the same kind of set.
+TEST(CemRun, NetworksOfTheSameKindOfSetAreBegunWith) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  TrainPrior(folder / "prior");
+  RunConfig config = Tiny();
+  config.cem.episodes = 0;
+  config.start = (folder / "prior").string();
+  config.prior.count = 6;
+  config.prior.seed = 5;
+  StartRun(config, folder / "fewer", &observer);
+  config.prior_file = (folder / "cylinders.h5").string();
+  WriteShapeSet(config.prior_file, MakePriorSet({.count = 6, .seed = 7}));
+  StartRun(config, folder / "file", &observer);
+}
+
 TEST(CemRun, TrainsGivenNetworksOnWhereFineTuningIsAskedFor) {
   const TempFolder folder;
   StoppingObserver observer;
