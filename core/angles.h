@@ -1,5 +1,5 @@
-// Options and tables hold degrees, the mathematics takes radians: 30 * kDegree is an angle, angle / kDegree a number
-// to show.
+// Options and tables hold degrees, the mathematics takes radians: 30 * kDegree is an angle, angle /
+// kDegree a number to show.
 #pragma once
 
 #include <numbers>
