@@ -4,18 +4,6 @@
 
 namespace antigrasp {
 
-int RejectedGrasps::Of(std::string_view reason) const {
-  const auto found = std::find_if(reasons.begin(), reasons.end(),
-                                  [&](const Reason& r) { return r.name == reason; });
-  return found == reasons.end() ? 0 : found->count;
-}
-
-int RejectedGrasps::Sum() const {
-  int sum = copies;
-  for (const Reason& reason : reasons) sum += reason.count;
-  return sum;
-}
-
 void RejectedGrasps::Add(const RejectedGrasps& other) {
   copies += other.copies;
   for (const Reason& reason : other.reasons) {

@@ -36,7 +36,6 @@ class GanModel : public ShapeModel {
   const LatentMixture& latent() const override { return trainer_.latent(); }
 
   NamedTensors State() const override { return trainer_.State(); }
-  NamedTensors Networks() const override { return trainer_.Networks(); }
   void Load(const NamedTensors& state, const std::string& origin) override;
   void LoadNetworks(const NamedTensors& state, const std::string& origin) override;
 

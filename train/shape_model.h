@@ -55,12 +55,11 @@ class ShapeModel {
                                 std::int64_t count) const = 0;
   virtual const LatentMixture& latent() const = 0;  // the distribution of z
 
-  // The whole state by name, progress included; and what of it is enough to sample and to begin an
-  // episode, as small as it may be (float16). They may share storage with the model.
+  // The whole state by name, progress included. It may share storage with the model.
   virtual NamedTensors State() const = 0;
-  virtual NamedTensors Networks() const = 0;
-  // Take a State, or what is enough of either; more is overlooked. InputError naming `origin`, and
-  // nothing changed, when it does not fit; OtherShapeModel when it is of another kind altogether.
+  // Take a State, or what of it is enough to sample and to begin an episode; more is overlooked.
+  // InputError naming `origin`, and nothing changed, when it does not fit; OtherShapeModel when it
+  // is of another kind altogether.
   virtual void Load(const NamedTensors& state, const std::string& origin) = 0;
   virtual void LoadNetworks(const NamedTensors& state, const std::string& origin) = 0;
 };

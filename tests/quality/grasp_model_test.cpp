@@ -9,6 +9,7 @@
 #include "antigrasp/mesh/convex_hull.h"
 #include "antigrasp/mesh/surface_sampler.h"
 #include "antigrasp/quality/graspability.h"
+#include "tests/quality/rejected_counts.h"
 #include "tests/support/shapes.h"
 
 namespace antigrasp {
@@ -102,10 +103,10 @@ TEST(GraspModel, GivesTheCandidatesAndNamesTheReasonsOfTheRefusedOnes) {
   EXPECT_EQ(g.rejected.reasons[0].name, "too steep");
   EXPECT_EQ(g.rejected.reasons[1].name, "covered");
   EXPECT_EQ(g.rejected.copies, 0);
-  EXPECT_EQ(g.rejected.Sum() + static_cast<int>(g.grasps.size()), 3000);
+  EXPECT_EQ(CountOfAll(g.rejected) + static_cast<int>(g.grasps.size()), 3000);
   // Shares of the surface; three standard deviations of a share are at most 0.027.
-  EXPECT_NEAR(g.rejected.Of("too steep") / 3000.0, kSteep / kSurface, 0.027);
-  EXPECT_NEAR(g.rejected.Of("covered") / 3000.0, kCovered / kSurface, 0.027);
+  EXPECT_NEAR(CountOf(g.rejected, "too steep") / 3000.0, kSteep / kSurface, 0.027);
+  EXPECT_NEAR(CountOf(g.rejected, "covered") / 3000.0, kCovered / kSurface, 0.027);
   for (const ScoredGrasp& scored : g.grasps) {
     EXPECT_EQ(scored.grasp.contacts[1].point, scored.grasp.contacts[0].point);
     EXPECT_EQ(scored.grasp.approach, -kUp);
@@ -118,7 +119,7 @@ TEST(GraspModel, CopiesOfAOneContactGraspAreThoseNearItsPoint) {
   options.grasp_separation = 0.1;
   const Graspability g = EvaluateGraspability(RoofUnderASlab(), options, 1, 0, &MakeCup);
   EXPECT_GT(g.rejected.copies, 100);
-  EXPECT_EQ(g.rejected.Sum() + static_cast<int>(g.grasps.size()), 3000);
+  EXPECT_EQ(CountOfAll(g.rejected) + static_cast<int>(g.grasps.size()), 3000);
   for (std::size_t i = 0; i < g.grasps.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_GE((g.grasps[i].grasp.center - g.grasps[j].grasp.center).norm(), 0.1);
@@ -218,9 +219,9 @@ TEST(RejectedGrasps, AddUpByNameInTheFirstOnesOrder) {
   EXPECT_EQ(sum.reasons[2].name, "too steep");
   EXPECT_EQ(sum.reasons[2].count, 30);
   EXPECT_EQ(sum.copies, 44);
-  EXPECT_EQ(sum.Sum(), 109);
-  EXPECT_EQ(sum.Of("covered"), 13);
-  EXPECT_EQ(sum.Of("blocked"), 0);
+  EXPECT_EQ(CountOfAll(sum), 109);
+  EXPECT_EQ(CountOf(sum, "covered"), 13);
+  EXPECT_EQ(CountOf(sum, "blocked"), 0);
 }
 
 }  // namespace

@@ -78,7 +78,6 @@ class SphereModel : public ShapeModel {
   const LatentMixture& latent() const override { return latent_; }
 
   NamedTensors State() const override { return StateWith(latent_); }
-  NamedTensors Networks() const override { return State(); }
   void Load(const NamedTensors& state, const std::string& origin) override {
     const torch::Tensor* const weights = FindTensor(state, "latent/weights");
     const std::int64_t n = weights != nullptr ? weights->size(0) : 1;
