@@ -178,8 +178,10 @@ TEST(RunCli, ASecondProcessIsRefusedInALineAndAKilledOneBlocksNobody) {
   EXPECT_NE(outcome.text.find("\ncode 2 of "), std::string::npos) << outcome.text;
   EXPECT_TRUE(fs::exists(folder / "run/.lock"));
   folder.Write("run/.checkpoint.pt.antigrasp.tmp", "half");
-  const Outcome resumed =
-      Shell(std::string("timeout -s INT 3 ") + ANTIGRASP_BINARY + " train --resume " + run);
+  const Outcome resumed = Shell(std::string(ANTIGRASP_BINARY) + " train --resume " + run +
+                                " 2>&1 & resumed=$!; for i in $(seq 600); do [ -e " + run +
+                                "/.checkpoint.pt.antigrasp.tmp ] || break; sleep 0.1; done; sleep "
+                                "0.2; kill -TERM $resumed; wait $resumed");
   EXPECT_NE(resumed.text.find("removed 1 unfinished files"), std::string::npos) << resumed.text;
   EXPECT_FALSE(fs::exists(folder / "run/.checkpoint.pt.antigrasp.tmp"));
   EXPECT_FALSE(fs::exists(folder / "run/.lock"));
