@@ -12,6 +12,7 @@
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/quality/named_gripper.h"
 #include "antigrasp/train/cem_run.h"
 
 namespace antigrasp {
@@ -27,6 +28,7 @@ struct TrainFlags {
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
   std::string device;
+  std::shared_ptr<std::string> gripper;
   std::string mode;
   std::string start;
   bool fine_tune = false;
@@ -47,6 +49,7 @@ RunConfig ReadConfig(const TrainFlags& flags) {
   Bind(&table, &config);
   if (!flags.start.empty()) config.model = ModelOf(flags.start);
   if (!flags.config.empty()) table.ApplyFile(flags.config);
+  if (!flags.gripper->empty()) ApplyGripper(*flags.gripper, &config.metric);
   for (const std::string& text : flags.overrides) table.ApplyOverride(text);
   if (flags.seed) config.seed = *flags.seed;
   if (flags.threads) table.ApplyValue("run.threads", std::to_string(*flags.threads), "--threads");
@@ -58,8 +61,10 @@ RunConfig ReadConfig(const TrainFlags& flags) {
     config.start.clear();
     config.fine_tune = false;
   }
+  const std::string origin = flags.config.empty() ? "configuration" : flags.config;
+  Validate(config, origin);
+  RequireFittingGripper(config.metric, origin);
   WarnOfLengths(config.metric);
-  Validate(config, flags.config.empty() ? "configuration" : flags.config);
   return config;
 }
 
@@ -82,7 +87,8 @@ void Train(const TrainFlags& flags) {
     throw InputError("train needs a folder", "command line",
                      "--out RUN for a new run or --resume RUN to go on");
   }
-  if (!flags.resume.empty() && (!flags.config.empty() || !flags.overrides.empty())) {
+  if (!flags.resume.empty() &&
+      (!flags.config.empty() || !flags.overrides.empty() || !flags.gripper->empty())) {
     throw InputError("--resume with a configuration", "command line",
                      "--resume RUN alone: a run goes on with the settings it began with");
   }
@@ -119,6 +125,7 @@ void AddTrainCommand(CLI::App* app) {
   command->add_option("--set", flags->overrides, "override a setting: --set gan.batch=16")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  flags->gripper = AddGripperFlag(command, "Options");
   command->add_option("--seed", flags->seed, "same as --set run.seed=");
   command->add_option("--threads", flags->threads, "same as --set run.threads=");
   command->add_option("--device", flags->device, "same as --set run.device=");

@@ -18,6 +18,7 @@ void AddPerturbCommand(CLI::App* app);
 void AddShapeCommand(CLI::App* app);
 void AddPosesCommand(CLI::App* app);
 void AddTrialCommand(CLI::App* app);
+void AddGripperCommand(CLI::App* app);
 void AddSheetCommand(CLI::App* app);
 void AddReportCommand(CLI::App* app);  // not in a build without the report's page
 void AddFigureCommand(CLI::App* app);

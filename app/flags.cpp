@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "antigrasp/core/format.h"
+#include "antigrasp/quality/named_gripper.h"
 #include "antigrasp/quality/object_size.h"
 
 namespace antigrasp {
@@ -16,6 +17,13 @@ std::shared_ptr<std::string> AddName(CLI::App* command, const std::string& flag,
   const auto name = std::make_shared<std::string>(value);
   command->add_option(flag, *name, help)->type_name("NAME")->capture_default_str()->group("Metric");
   return name;
+}
+
+std::vector<std::string> GripperAlternatives() {
+  std::vector<std::string> names;
+  for (const NamedGripper& gripper : NamedGrippers()) names.emplace_back(gripper.name);
+  names.emplace_back("a TOML file");
+  return names;
 }
 
 OptionFlags MetricOptionFlags(CLI::App* command) {
@@ -32,6 +40,16 @@ std::string FlagOf(const std::string& key) {
   std::replace(flag.begin() + 2, flag.end(), '_', '-');
   std::replace(flag.begin() + 2, flag.end(), '.', '-');
   return flag;
+}
+
+std::shared_ptr<std::string> AddGripperFlag(CLI::App* command, const std::string& group) {
+  const auto name = std::make_shared<std::string>();
+  command
+      ->add_option("--gripper", *name,
+                   "opening, fingers and palm: " + Alternatives(GripperAlternatives()))
+      ->type_name("NAME|FILE")
+      ->group(group);
+  return name;
 }
 
 CLI::Validator NumberIn(double low, double high) {
@@ -78,6 +96,7 @@ MetricFlags::MetricFlags(CLI::App* command)
       preset_(AddName(command, "--preset", "default",
                       "all constants: " + Alternatives(MetricPresetNames()))),
       noise_(AddName(command, "--noise", "", "noise alone: " + Alternatives(NoisePresetNames()))),
+      gripper_(AddGripperFlag(command, "Metric")),
       options_(MetricOptionFlags(command)) {
   command
       ->add_flag("--true-size", *true_size_,
@@ -89,17 +108,19 @@ MetricFlags::MetricFlags(CLI::App* command)
 
 bool MetricFlags::given() const {
   return options_.given() || command_->count("--preset") > 0 || command_->count("--noise") > 0 ||
-         *true_size_;
+         command_->count("--gripper") > 0 || *true_size_;
 }
 
 MetricOptions MetricFlags::Resolve() const {
   MetricOptions options;
   ApplyMetricPreset(*preset_, &options);
   if (!noise_->empty()) ApplyNoisePreset(*noise_, &options);
+  if (!gripper_->empty()) ApplyGripper(*gripper_, &options);
   OptionTable table;
   Bind(&table, &options);
   options_.Apply(&table);
   if (*true_size_) options.object_min_extent = 0.0;
+  RequireFittingGripper(options, "command line");
   WarnOfLengths(options);
   return options;
 }

@@ -26,22 +26,26 @@ class OptionFlags {
 };
 
 // The metric's constants as flags of a command: one per "metric.*" and "gripper.*" option,
-// --preset NAME, --noise PRESET and --true-size. Single constants win over --noise, --noise over
-// --preset.
+// --preset NAME, --noise PRESET, --gripper NAME|FILE and --true-size. Single constants win over
+// --noise and --gripper, those over --preset.
 class MetricFlags {
  public:
   explicit MetricFlags(CLI::App* command);
-  // Both after parsing. Warns of lengths that can hardly be in metres.
+  // Both after parsing. InputError for parts that do not fit each other; warns of lengths that can
+  // hardly be in metres.
   MetricOptions Resolve() const;
   const std::string& preset() const { return *preset_; }
   bool given() const;  // whether any of them was on the command line
 
  private:
   CLI::App* command_;
-  std::shared_ptr<std::string> preset_, noise_;
+  std::shared_ptr<std::string> preset_, noise_, gripper_;
   std::shared_ptr<bool> true_size_ = std::make_shared<bool>(false);
   OptionFlags options_;
 };
+
+// --gripper NAME|FILE (quality/named_gripper.h); empty when it is not given.
+std::shared_ptr<std::string> AddGripperFlag(CLI::App* command, const std::string& group);
 
 // Warnings for lengths that can hardly be in metres (UnlikelyLengths).
 void WarnOfLengths(const MetricOptions& metric);

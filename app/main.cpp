@@ -23,6 +23,7 @@ void AddCommands(CLI::App* app) {
   AddShapeCommand(app);
   AddPosesCommand(app);
   AddTrialCommand(app);
+  AddGripperCommand(app);
   AddSheetCommand(app);
 #ifdef ANTIGRASP_HAS_REPORT
   Name(kReport, app);

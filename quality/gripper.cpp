@@ -36,4 +36,31 @@ std::array<BoundingBox, 3> GripperBoxes(const GripperModel& model, double openin
                       {-model.palm_distance, half_length, half_width}}};
 }
 
+TriangleMesh GripperMesh(const GripperModel& model, double opening) {
+  // Corner i has its maximum in x, y, z by the bits of i; every side is split along a diagonal.
+  constexpr std::array<std::array<std::int32_t, 3>, 12> kFaces = {{{0, 2, 1},
+                                                                   {1, 2, 3},
+                                                                   {4, 5, 6},
+                                                                   {5, 7, 6},
+                                                                   {0, 1, 4},
+                                                                   {1, 5, 4},
+                                                                   {2, 6, 3},
+                                                                   {3, 6, 7},
+                                                                   {0, 4, 2},
+                                                                   {2, 4, 6},
+                                                                   {1, 3, 5},
+                                                                   {3, 7, 5}}};
+  TriangleMesh mesh;
+  for (const BoundingBox& box : GripperBoxes(model, opening, 0.0)) {
+    const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+    for (int i = 0; i < 8; ++i) {
+      mesh.vertices.emplace_back((i & 1) != 0 ? box.max.x() : box.min.x(),
+                                 (i & 2) != 0 ? box.max.y() : box.min.y(),
+                                 (i & 4) != 0 ? box.max.z() : box.min.z());
+    }
+    for (const auto& f : kFaces) mesh.faces.push_back({first + f[0], first + f[1], first + f[2]});
+  }
+  return mesh;
+}
+
 }  // namespace antigrasp

@@ -19,6 +19,7 @@ namespace antigrasp {
 //            |z| <= palm_width / 2
 //
 // Defaults: the ABB YuMi servo gripper with Dex-Net's fingers, as far as numbers are published.
+// Others: named_gripper.h.
 //   fingertip_overlap, finger_width / 2: the pad is a disc of finger_radius 0.010 about the contact
 //     (Dex-Net, data/grippers/yumi_metal_spline/params.json)
 //   palm_depth: the fingers' joint is 83.7 mm from the flange (OrebroUniversity/yumi,
@@ -44,5 +45,8 @@ void Bind(OptionTable* table, GripperModel* model);  // keys "gripper.*"
 // they move along their own edges, so that what they sweep is a box again. 0 = as they stand at the
 // grasp.
 std::array<BoundingBox, 3> GripperBoxes(const GripperModel& model, double opening, double retreat);
+
+// The three boxes at an opening as one mesh, each closed on its own: to look at.
+TriangleMesh GripperMesh(const GripperModel& model, double opening);
 
 }  // namespace antigrasp

@@ -77,6 +77,10 @@ const auto& Named(const List& list, const std::string& name, const std::string& 
   throw InputError(what + " preset '" + name + "'", what, expected);
 }
 
+void BindOpening(OptionTable* table, MetricOptions* options) {
+  table->Add("metric.jaw_opening", &options->jaw_opening, 1e-6, 100.0, "widest grasp, m");
+}
+
 }  // namespace
 
 std::vector<std::string> MetricPresetNames() { return NamesOf(kPresets); }
@@ -116,7 +120,7 @@ void Bind(OptionTable* table, MetricOptions* options) {
       "metric.units", &o.units,
       "what the meshes' coordinates are in: mm, cm, m or in (of an SDF file: the side of its "
       "cube); counts where objects keep their size");
-  table->Add("metric.jaw_opening", &o.jaw_opening, 1e-6, 100.0, "widest grasp, m");
+  BindOpening(table, &o);
   table->Add("metric.num_grasps", &o.num_grasps, 1, 1e6, "grasps scored per object");
   table->Add("metric.num_draws", &o.num_draws, 1, 1e6, "noise draws per grasp");
   table->Add("metric.max_attempts", &o.max_attempts, 1, 1e9, "candidate grasps tried per object");
@@ -138,6 +142,11 @@ void Bind(OptionTable* table, MetricOptions* options) {
   table->Add("metric.collision", &o.collision,
              "what must be free of collision: the whole gripper, or the two jaw paths");
   Bind(table, &o.gripper);
+}
+
+void BindGripper(OptionTable* table, MetricOptions* options) {
+  BindOpening(table, options);
+  Bind(table, &options->gripper);
 }
 
 std::string MetricToml(const MetricOptions& metric, std::uint64_t seed) {

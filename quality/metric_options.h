@@ -70,6 +70,8 @@ std::vector<std::string> MetricPresetNames();
 std::vector<std::string> NoisePresetNames();
 
 void Bind(OptionTable* table, MetricOptions* options);  // keys "metric.*", "gripper.*"
+// Of these the gripper's own: "metric.jaw_opening" and "gripper.*".
+void BindGripper(OptionTable* table, MetricOptions* options);
 
 // What belongs beside a table of scores: the seed and every constant, as TOML.
 std::string MetricToml(const MetricOptions& metric, std::uint64_t seed);

@@ -48,7 +48,7 @@ TEST(Cli, HelpNamesEveryCommandAndEveryCommandHasHelp) {
   const std::vector<std::string> commands = CommandsIn(help.text);
   for (const char* command :
        {"dataset", "train", "sample", "remesh", "evaluate", "compare", "quality", "perturb",
-        "shape", "poses", "trial", "sheet", "figure", "export", "generator", "info"}) {
+        "shape", "poses", "trial", "gripper", "sheet", "figure", "export", "generator", "info"}) {
     EXPECT_TRUE(std::find(commands.begin(), commands.end(), command) != commands.end()) << command;
   }
   for (const std::string& command : commands) {

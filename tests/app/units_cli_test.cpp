@@ -113,13 +113,14 @@ TEST_F(UnitsCli, SizesThatSpeakForAnotherUnitAreWarnedOf) {
     EXPECT_TRUE(Says(outcome, large)) << command << outcome.text;
     std::filesystem::remove_all(folder / "out");
   }
-  const Outcome jaws =
-      Antigrasp("evaluate " + File("mm.obj") + kFewGrasps + "--jaw-opening 85 " + out);
+  // An opening that no palm carries is refused, by the same words.
+  const std::string metres =
+      "metric.jaw_opening = 85 is 85 m: the metric's lengths are in metres, 85 mm are 0.085";
+  cli::ExpectRefused("evaluate " + File("mm.obj") + "--jaw-opening 85", metres);
+  const Outcome jaws = Antigrasp("evaluate " + File("mm.obj") + kFewGrasps +
+                                 "--collision jaws --jaw-opening 85 " + out);
   EXPECT_EQ(jaws.code, 0) << jaws.text;
-  EXPECT_TRUE(Says(jaws,
-                   "metric.jaw_opening = 85 is 85 m: the metric's lengths are in metres, 85 "
-                   "mm are 0.085"))
-      << jaws.text;
+  EXPECT_TRUE(Says(jaws, metres)) << jaws.text;
   const Outcome wide = Antigrasp("evaluate " + File("mm.obj") + kFewGrasps +
                                  "--true-size --units mm --jaw-opening 0.02 " + out);
   EXPECT_EQ(wide.code, 0) << wide.text;

@@ -1,0 +1,139 @@
+#include "antigrasp/quality/named_gripper.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+#include "antigrasp/core/choice.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/format.h"
+#include "antigrasp/core/nearest.h"
+#include "antigrasp/quality/object_size.h"
+
+namespace antigrasp {
+namespace {
+
+// Openings add up to the last digit only; 1 nm is no part that does not fit.
+constexpr double kFitSlack = 1e-9;
+
+constexpr std::array<NamedGripper, 4> kGrippers = {{
+    {"yumi", "ABB YuMi servo gripper with Dex-Net's fingers", MetricOptions{}.jaw_opening, {}},
+    {"panda",
+     "Franka Hand, standard fingers",
+     0.080,
+     {.palm_distance = 0.0374,
+      .fingertip_overlap = 0.0095,
+      .finger_width = 0.0175,
+      .finger_thickness = 0.0152,
+      .palm_depth = 0.0660,
+      .palm_length = 0.2044,
+      .palm_width = 0.0633}},
+    {"robotiq_85",
+     "Robotiq 2F-85, rubber pads",
+     0.085,
+     {.palm_distance = 0.0403,
+      .fingertip_overlap = 0.0188,
+      .finger_width = 0.0220,
+      .finger_thickness = 0.0169,
+      .palm_depth = 0.0900,
+      .palm_length = 0.1484,
+      .palm_width = 0.0750}},
+    {"robotiq_140",
+     "Robotiq 2F-140, rubber pads",
+     0.140,
+     {.palm_distance = 0.0870,
+      .fingertip_overlap = 0.0325,
+      .finger_width = 0.0270,
+      .finger_thickness = 0.0171,
+      .palm_depth = 0.0900,
+      .palm_length = 0.2024,
+      .palm_width = 0.0750}},
+}};
+
+const NamedGripper* Find(const std::string& name) {
+  for (const NamedGripper& gripper : kGrippers) {
+    if (gripper.name == name) return &gripper;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> Names() {
+  std::vector<std::string> names;
+  for (const NamedGripper& gripper : kGrippers) names.emplace_back(gripper.name);
+  return names;
+}
+
+// The keys of a gripper whose lengths no other gripper can stand in for, by their targets.
+std::array<double*, 8> Lengths(MetricOptions* options) {
+  GripperModel& m = options->gripper;
+  return {&options->jaw_opening, &m.palm_distance, &m.fingertip_overlap, &m.finger_width,
+          &m.finger_thickness,   &m.palm_depth,    &m.palm_length,       &m.palm_width};
+}
+
+void ApplyGripperFile(const std::string& path, MetricOptions* options) {
+  MetricOptions read = *options;
+  for (double* length : Lengths(&read)) *length = std::numeric_limits<double>::quiet_NaN();
+  OptionTable table;
+  BindGripper(&table, &read);
+  table.ApplyFile(path);
+  for (const Option& option : table.options()) {
+    const auto* number = std::get_if<double*>(&option.target);
+    if (number == nullptr || !std::isnan(**number)) continue;
+    throw InputError("no " + option.key, path,
+                     "every length of the gripper (an example: antigrasp gripper yumi)");
+  }
+  *options = read;
+}
+
+}  // namespace
+
+std::span<const NamedGripper> NamedGrippers() { return kGrippers; }
+
+void ApplyGripper(const std::string& name_or_file, MetricOptions* options) {
+  if (const NamedGripper* named = Find(name_or_file)) {
+    MetricOptions of_name = *options;
+    of_name.jaw_opening = named->jaw_opening;
+    of_name.gripper = named->model;
+    MetricOptions result = *options;  // the way in stays
+    const auto from = Lengths(&of_name), to = Lengths(&result);
+    for (std::size_t i = 0; i < to.size(); ++i) *to[i] = *from[i];
+    *options = result;
+    return;
+  }
+  const std::filesystem::path path = name_or_file;
+  if (path.extension() != ".toml" && !std::filesystem::exists(path)) {
+    throw InputError("no gripper " + name_or_file, "--gripper",
+                     Alternatives(Names()) + " or a TOML file; the nearest name is " +
+                         Nearest(name_or_file, Names()));
+  }
+  ApplyGripperFile(name_or_file, options);
+}
+
+void RequireFittingGripper(const MetricOptions& options, const std::string& origin) {
+  if (options.collision != Collision::kGripper) return;
+  const GripperModel& model = options.gripper;
+  const double fingers = options.jaw_opening + 2.0 * model.finger_thickness;
+  if (!(model.palm_length < fingers - kFitSlack)) return;
+  char least[32];
+  std::snprintf(least, sizeof least, "%.6g", fingers);
+  std::string hint = "--gripper sets what belongs together";
+  MetricOptions lengths = options;
+  lengths.units = LengthUnit::kM;  // that of meshes has no part in it
+  for (const std::string& text : UnlikelyLengths(lengths)) hint += "; " + text;
+  throw InputError(
+      "the palm is narrower than the open fingers: gripper.palm_length = " +
+          FormatDouble(model.palm_length),
+      origin,
+      std::string("at least ") + least + " m, metric.jaw_opening and two fingers (" + hint + ")");
+}
+
+std::string GripperToml(const MetricOptions& options, const std::string& about) {
+  MetricOptions copy = options;
+  OptionTable table;
+  BindGripper(&table, &copy);
+  return "# " + about + "\n" + table.Dump();
+}
+
+}  // namespace antigrasp

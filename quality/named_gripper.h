@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "antigrasp/quality/metric_options.h"
+
+namespace antigrasp {
+
+// A gripper that people have: its opening and its boxes (gripper.h), metres.
+struct NamedGripper {
+  std::string_view name;
+  std::string_view about;
+  double jaw_opening;
+  GripperModel model;
+};
+
+// The one list. Every number's source is in docs/grippers.md.
+std::span<const NamedGripper> NamedGrippers();
+
+// Sets the opening and the lengths of fingers and palm to those of a named gripper, or of a TOML
+// file with the same keys (docs/formats.md), which may set the way in, too. InputError, with
+// nothing changed, for another name, an unknown key, a value out of range and a file that leaves a
+// length out: a part of another gripper would stand in for it.
+void ApplyGripper(const std::string& name_or_file, MetricOptions* options);
+
+// InputError when the palm is narrower than the open fingers that it carries. Not asked of a metric
+// that looks at the jaws alone.
+void RequireFittingGripper(const MetricOptions& options, const std::string& origin);
+
+// The file that ApplyGripper reads, `about` as its first line.
+std::string GripperToml(const MetricOptions& options, const std::string& about);
+
+}  // namespace antigrasp
