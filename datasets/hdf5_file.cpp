@@ -89,8 +89,9 @@ struct Hdf5File::Impl {
   // All values of a numeric attribute, converted to the native type of T.
   template <typename T>
   std::optional<std::vector<T>> Numbers(const std::string& name, hid_t native,
-                                        std::initializer_list<H5T_class_t> accepted) const {
-    const Handle attribute = Attribute(name);
+                                        std::initializer_list<H5T_class_t> accepted,
+                                        const std::string& object = "/") const {
+    const Handle attribute = Attribute(name, object);
     if (!attribute) return {};
     const Handle type(H5Aget_type(attribute.get()), H5Tclose);
     const Handle space(H5Aget_space(attribute.get()), H5Sclose);
@@ -174,13 +175,15 @@ std::optional<std::uint64_t> Hdf5File::UintAttribute(const std::string& name) co
   return values->front();
 }
 
-std::optional<std::vector<double>> Hdf5File::DoublesAttribute(const std::string& name) const {
+std::optional<std::vector<double>> Hdf5File::DoublesAttribute(const std::string& name,
+                                                              const std::string& object) const {
   const Hdf5Lock lock;
-  return impl_->Numbers<double>(name, H5T_NATIVE_DOUBLE, {H5T_FLOAT, H5T_INTEGER});
+  return impl_->Numbers<double>(name, H5T_NATIVE_DOUBLE, {H5T_FLOAT, H5T_INTEGER}, object);
 }
 
-std::optional<double> Hdf5File::DoubleAttribute(const std::string& name) const {
-  const auto values = DoublesAttribute(name);
+std::optional<double> Hdf5File::DoubleAttribute(const std::string& name,
+                                                const std::string& object) const {
+  const auto values = DoublesAttribute(name, object);
   if (!values || values->size() != 1) return {};
   return values->front();
 }
@@ -254,9 +257,9 @@ void Hdf5File::WriteAttribute(const std::string& name, std::uint64_t value) {
   impl_->Write("/", name, {H5Screate(H5S_SCALAR), H5Sclose}, H5T_NATIVE_UINT64, &value);
 }
 
-void Hdf5File::WriteAttribute(const std::string& name, double value) {
+void Hdf5File::WriteAttribute(const std::string& name, double value, const std::string& object) {
   const Hdf5Lock lock;
-  impl_->Write("/", name, {H5Screate(H5S_SCALAR), H5Sclose}, H5T_NATIVE_DOUBLE, &value);
+  impl_->Write(object, name, {H5Screate(H5S_SCALAR), H5Sclose}, H5T_NATIVE_DOUBLE, &value);
 }
 
 void Hdf5File::WriteAttribute(const std::string& name, const std::vector<double>& values) {

@@ -20,12 +20,14 @@ class Hdf5File {
   static std::unique_ptr<Hdf5File> Create(const std::filesystem::path& path);
   ~Hdf5File();
 
-  // Attributes are the root group's, those of text also another object's.
+  // Attributes are the root group's, those of text and single numbers also another object's.
   std::optional<std::string> StringAttribute(const std::string& name,
                                              const std::string& object = "/") const;
   std::optional<std::uint64_t> UintAttribute(const std::string& name) const;
-  std::optional<double> DoubleAttribute(const std::string& name) const;
-  std::optional<std::vector<double>> DoublesAttribute(const std::string& name) const;
+  std::optional<double> DoubleAttribute(const std::string& name,
+                                        const std::string& object = "/") const;
+  std::optional<std::vector<double>> DoublesAttribute(const std::string& name,
+                                                      const std::string& object = "/") const;
 
   // Extents of a dataset of numbers or strings; empty when there is none.
   std::vector<std::uint64_t> Extents(const std::string& name) const;
@@ -43,7 +45,7 @@ class Hdf5File {
                       const std::string& object = "/");
   void WriteAttribute(const std::string& name, std::uint64_t value);
   void WriteAttribute(const std::string& name, const std::vector<double>& values);
-  void WriteAttribute(const std::string& name, double value);
+  void WriteAttribute(const std::string& name, double value, const std::string& object = "/");
   // float32 [count, item_extents...], one chunk an item: shuffled, deflated, with check sums. Then
   // its items, one after the other.
   void CreateFloats(const std::string& name, std::uint64_t count,

@@ -287,6 +287,7 @@ std::vector<ImportedMesh> ImportMeshes(const std::vector<fs::path>& inputs, cons
   GridAll(meshes, scale_of, options, &items, &grids, report_from(count));
 
   ShapeSet about{.kind = "import"};
+  if (one) about.side = 1.0 / scale;
   about.provenance = "imported from " + where +
                      (one ? ", scaled by " + FormatDouble(scale) : ", each scaled to the cube");
   ShapeSetWriter writer(out, about, CountUsable(items, where));

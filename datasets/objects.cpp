@@ -134,6 +134,7 @@ InputObject ObjectSource::Load(std::int64_t i) const {
                        : from.is_folder ? FromFileInFolder(source.file)
                                         : FromFile(source.file);
   object.name = source.name;
+  if (from.set && from.set->info().side > 0.0) object.unit = from.set->info().side;
   return object;
 }
 

@@ -17,6 +17,7 @@ struct InputObject {
   TriangleMesh mesh;
   std::string status;  // "ok", or why there is no usable solid ("open: 12 boundary edges", ...)
   std::string note;    // what was repaired; may be empty
+  double unit = 1.0;   // of the mesh, in that of the file which a grid was imported from
   bool ok() const { return status == "ok"; }
 };
 

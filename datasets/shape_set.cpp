@@ -59,6 +59,10 @@ class Reader {
     if (sign != "positive inside") {
       Fail("sign = \"" + sign + "\"", "sign = \"positive inside\"");
     }
+    info.side = file_->DoubleAttribute("side", "/sdf").value_or(0.0);
+    if (!(std::isfinite(info.side) && info.side >= 0.0)) {
+      Fail("side is not a length", "attribute side of /sdf >= 0");
+    }
     const std::vector<std::uint64_t> extents = file_->Extents("/sdf");
     const bool cubes = extents.size() == 4 && extents[1] == extents[2] && extents[2] == extents[3];
     if (!cubes || extents[1] < 1 || extents[1] > kMostNodes || !file_->HoldsFloats("/sdf")) {
@@ -153,6 +157,7 @@ struct ShapeSetWriter::Impl {
     file->CreateFloats("/sdf", count, {n, n, n});
     file->WriteAttribute("sign", std::string("positive inside"), "/sdf");
     file->WriteAttribute("unit", std::string("side of the unit cube"), "/sdf");
+    if (about.side > 0.0) file->WriteAttribute("side", about.side, "/sdf");
   }
 };
 
@@ -187,7 +192,8 @@ void ShapeSetWriter::Commit() {
 
 void WriteShapeSet(const std::filesystem::path& path, const ShapeSet& set) {
   AG_CHECK(set.names.size() == set.grids.size(), "a shape set needs one name for each grid");
-  ShapeSetWriter writer(path, {set.kind, set.seed, set.provenance, set.truncation},
+  ShapeSetWriter writer(path,
+                        {set.kind, set.seed, set.provenance, set.truncation, {}, {}, set.side},
                         set.grids.size());
   for (std::size_t i = 0; i < set.grids.size(); ++i) writer.Add(set.names[i], set.grids[i]);
   writer.Commit();
@@ -215,7 +221,8 @@ SdfGrid ShapeSetReader::Grid(int i) const {
 ShapeSet ReadShapeSet(const std::filesystem::path& path) {
   const ShapeSetReader reader(path);
   const ShapeSetInfo& info = reader.info();
-  ShapeSet set{info.kind, info.seed, info.provenance, info.truncation, reader.Names(), {}};
+  ShapeSet set{info.kind,      info.seed, info.provenance, info.truncation,
+               reader.Names(), {},        info.side};
   for (int i = 0; i < info.count; ++i) set.grids.push_back(reader.Grid(i));
   return set;
 }

@@ -17,11 +17,12 @@ struct ShapeSet {
   double truncation = 0.0;              // 0: exact distances; tau: values clamped to [-tau, tau]
   std::vector<std::string> names = {};  // one per grid ("cylinders-000017", "mug.stl")
   std::vector<SdfGrid> grids = {};      // all of one n, spacing, origin
+  double side = 0.0;  // of the unit cube, in the unit of the meshes it came from; 0: no one length
 };
 
 // HDF5 layout in docs/formats.md: dataset /sdf float32 [N, n, n, n] (z, y, x; chunked, shuffled,
-// deflated) with its attributes sign = "positive inside" and unit, /names, attributes format =
-// "antigrasp.sdf", version, kind, seed, spacing, origin, truncation, provenance. Written grid by
+// deflated) with its attributes sign = "positive inside", unit and side, /names, attributes format
+// = "antigrasp.sdf", version, kind, seed, spacing, origin, truncation, provenance. Written grid by
 // grid, so that memory does not grow with the set; there when Commit() returns, else nothing is.
 class ShapeSetWriter {
  public:
@@ -43,7 +44,7 @@ struct ShapeSetInfo {
   std::string kind, provenance;
   std::uint64_t seed = 0;
   int count = 0, n = 0, version = 0;
-  double spacing = 0.0, truncation = 0.0;
+  double spacing = 0.0, truncation = 0.0, side = 0.0;
 };
 
 // An SDF file whose grids are read when they are asked for, by any thread. Everything throws

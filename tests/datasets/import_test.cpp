@@ -9,6 +9,8 @@
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/datasets/objects.h"
+#include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "tests/datasets/imported.h"
 #include "tests/support/shapes.h"
@@ -125,6 +127,26 @@ TEST(ImportMeshes, OneScaleForTheSetLeavesTwoCellsOnEverySide) {
   // The node nearest to the middle is half a cell from it along each axis: distance to the faces.
   EXPECT_NEAR(large.values[large.Index(16, 16, 16)], 14.0 / 32.0 - 0.5 / 32.0, 1e-6);
   EXPECT_NEAR(large.values[large.Index(0, 16, 16)], -1.5 / 32.0, 1e-6);
+}
+
+TEST(ImportMeshes, OneFactorIsKeptInTheFileAsTheSideOfTheCubeInTheMeshesUnit) {
+  const TempFolder folder;
+  // 70 long: 28 of 32 nodes, so that the cube is 80 wide.
+  const auto path = folder / "box.stl";
+  WriteMesh(path, shapes::Box({20.0, 40.0, 70.0}));
+  ImportOptions options{.resolution = 32, .threads = 1};
+  ImportMeshes({path}, folder / "set.h5", options);
+  EXPECT_NEAR(ReadShapeSetInfo(folder / "set.h5").side, 80.0, 1e-12);
+  const ShapeSet set = ReadShapeSet(folder / "set.h5");
+  EXPECT_NEAR(set.side, 80.0, 1e-12);
+  WriteShapeSet(folder / "again.h5", set);
+  EXPECT_EQ(ReadFile(folder / "again.h5"), ReadFile(folder / "set.h5"));
+  EXPECT_NEAR(ObjectSource({(folder / "set.h5").string()}).Load(0).unit, 80.0, 1e-12);
+  options.scale = ImportScale::kEach;  // one side for each: none for the set
+  ImportMeshes({path}, folder / "each.h5", options);
+  EXPECT_EQ(ReadShapeSetInfo(folder / "each.h5").side, 0.0);
+  EXPECT_EQ(ObjectSource({(folder / "each.h5").string()}).Load(0).unit, 1.0);
+  EXPECT_EQ(ObjectSource({path.string()}).Load(0).unit, 1.0);
 }
 
 TEST(ImportMeshes, DistancesOfASphereAreExactUpToItsFacets) {
