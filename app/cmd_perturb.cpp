@@ -60,6 +60,9 @@ std::vector<PerturbedObject> PerturbAll(std::vector<InputObject> inputs,
   ParallelFor(static_cast<std::int64_t>(inputs.size()), threads, [&](std::int64_t i) {
     PerturbedObject& item = objects[static_cast<std::size_t>(i)];
     item.object = std::move(inputs[static_cast<std::size_t>(i)]);
+    if (item.object.unit != 1.0) {  // of an imported set: results keep the unit of its files
+      item.object.mesh = Transformed(item.object.mesh, item.object.unit, Eigen::Vector3d::Zero());
+    }
     std::int64_t at = 0;
     try {
       if (item.object.ok()) {
@@ -109,10 +112,11 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
 }
 
 // One subcommand: the options of its own algorithm, those that the paper's three share, and the
-// metric's. `run` is the algorithm.
+// metric's. `subdivide` is the default of --subdivide: what moves vertices within a limit of angles
+// needs many of them. `run` is the algorithm.
 template <typename Options, typename Run>
 void AddMethod(CLI::App* perturb, const std::string& name, const std::string& help,
-               const Run& run) {
+               SubdivideOptions subdivide, const Run& run) {
   CLI::App* command = perturb->add_subcommand(name, help);
   const auto flags = std::make_shared<PerturbFlags>();
   command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
@@ -122,22 +126,27 @@ void AddMethod(CLI::App* perturb, const std::string& name, const std::string& he
   command->add_option("--threads", flags->threads, "threads; 0 = all; results do not depend on it")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  const auto bind = [](OptionTable* table, Options* own, PerturbOptions* common) {
+  const auto bind = [](OptionTable* table, Options* own, PerturbOptions* common,
+                       SubdivideOptions* fine) {
     Bind(table, own);
     if (!std::is_same_v<Options, SearchOptions>) Bind(table, common);
+    Bind(table, fine);
   };
   Options default_own;
   PerturbOptions default_common;
   OptionTable defaults;
-  bind(&defaults, &default_own, &default_common);
+  SubdivideOptions default_subdivide = subdivide;
+  bind(&defaults, &default_own, &default_common, &default_subdivide);
   const OptionFlags own_flags(command, defaults, "Perturbation");
   const auto metric_flags = std::make_shared<MetricFlags>(command);
-  command->callback([flags, own_flags, metric_flags, bind, run] {
+  command->callback([flags, own_flags, metric_flags, bind, subdivide, run] {
     Options own;
     PerturbSettings settings;
+    settings.subdivide = subdivide;
     OptionTable table;
-    bind(&table, &own, &settings.common);
+    bind(&table, &own, &settings.common, &settings.subdivide);
     own_flags.Apply(&table);
+    RequireSubdivision(settings.subdivide, "--subdivide");
     settings.metric = metric_flags->Resolve();
     settings.seed = flags->seed;
     settings.method = [own, metric = settings.metric, run](const auto&... arguments) {
@@ -157,6 +166,7 @@ void AddPerturbCommand(CLI::App* app) {
   perturb->footer("antigrasp perturb METHOD --help shows a method's options");
   AddMethod<ExhaustiveOptions>(
       perturb, "exhaustive", "IV-A: every vertex of every antipodal face; small meshes",
+      SubdivideOptions{kAsItIs},
       [](const ExhaustiveOptions& own, const MetricOptions&, const TriangleMesh& mesh,
          const PairLimits& pairs, const PerturbOptions& common, RngStream* rng,
          const ProgressFn& progress) {
@@ -164,6 +174,7 @@ void AddPerturbCommand(CLI::App* app) {
       });
   AddMethod<RandomPerturbOptions>(
       perturb, "random", "IV-B: random vertices of sampled pairs, normals kept within alpha",
+      SubdivideOptions{0.0},
       [](const RandomPerturbOptions& own, const MetricOptions&, const TriangleMesh& mesh,
          const PairLimits& pairs, const PerturbOptions& common, RngStream* rng,
          const ProgressFn& progress) {
@@ -171,6 +182,7 @@ void AddPerturbCommand(CLI::App* app) {
       });
   AddMethod<RotationOptions>(
       perturb, "rotation", "IV-C: decimate, then turn the faces of sampled pairs apart",
+      SubdivideOptions{kAsItIs},
       [](const RotationOptions& own, const MetricOptions&, const TriangleMesh& mesh,
          const PairLimits& pairs, const PerturbOptions& common, RngStream* rng,
          const ProgressFn& progress) {
@@ -178,6 +190,7 @@ void AddPerturbCommand(CLI::App* app) {
       });
   AddMethod<SearchOptions>(
       perturb, "search", "beyond the paper: descent on the metric, normals kept within alpha",
+      SubdivideOptions{0.0},
       [](const SearchOptions& own, const MetricOptions& metric, const TriangleMesh& mesh,
          const PairLimits&, const PerturbOptions&, RngStream* rng,
          const ProgressFn& progress) { return PerturbBySearch(mesh, metric, own, rng, progress); });

@@ -15,8 +15,8 @@ struct PerturbedObject {
   InputObject object;
   ScoredPerturbation scored;  // empty when the object is not usable or the work was cut short
   bool interrupted = false;
-  // "ok", "interrupted", or why there is no printable result ("before: open: ...", "after:
-  // self-intersecting").
+  // "ok", "interrupted", or why there is no result to print ("before: open: ...", "after:
+  // self-intersecting", "unchanged: too few vertices: 8").
   std::string Status() const;
 };
 

@@ -36,7 +36,7 @@ struct PairCount {
 struct PerturbResult {
   TriangleMesh start;   // what the algorithm began on: single precision, maybe decimated
   TriangleMesh mesh;    // what became of it
-  std::string failure;  // why there is no printable result, in plain words; "" = there is one
+  std::string failure;  // why there is no result to print, in plain words; "" = there is one
   std::int64_t iterations = 0;
   std::int64_t moved = 0;    // iterations that changed the mesh
   std::int64_t no_gain = 0;  // iterations in which no move raised the angle within the limits

@@ -16,19 +16,28 @@ double ValueOf(const Graspability& score) {
   return score.status == GraspabilityStatus::kNotEvaluable ? kNaN : score.value;
 }
 
+// Nothing moved, and no wonder: that says nothing about the algorithm, and its difference of 0 does
+// not belong into a mean. A fine mesh that did not move does.
+std::string WhyNothingMoved(const PerturbResult& result) {
+  if (result.moved > 0 || result.iterations == 0 || result.no_pairs_left) return "";
+  if (!IsCoarse(result.start)) return "";
+  return "unchanged: too few vertices: " + std::to_string(result.start.vertices.size());
+}
+
 // Of an object that lies about the origin.
-ScoredPerturbation AboutTheOrigin(const TriangleMesh& mesh, const PerturbSettings& settings,
+ScoredPerturbation AboutTheOrigin(const TriangleMesh& given, const PerturbSettings& settings,
                                   std::uint64_t object, const ProgressFn& progress) {
   using Clock = std::chrono::steady_clock;
   ScoredPerturbation out;
   out.graspability_before = out.graspability_after = kNaN;
   out.normals = {kNaN, kNaN};
   out.change = {kNaN, kNaN, kNaN, kNaN};
-  out.result.failure = WhyNotPrintable(mesh);
+  out.result.failure = WhyNotPrintable(given);
   if (!out.result.failure.empty()) {
     out.result.failure = "before: " + out.result.failure;
     return out;
   }
+  const TriangleMesh mesh = Subdivided(given, settings.subdivide);
   out.before = InSinglePrecision(mesh);
   const Graspability before =
       EvaluateGraspability(out.before, settings.metric, settings.seed, object);
@@ -39,6 +48,7 @@ ScoredPerturbation AboutTheOrigin(const TriangleMesh& mesh, const PerturbSetting
   out.result = settings.method(mesh, pairs, settings.common, &rng, progress);
   out.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   out.pairs_before = CountAntipodalPairs(out.before, pairs);
+  if (out.result.failure.empty()) out.result.failure = WhyNothingMoved(out.result);
   if (out.result.mesh.faces.empty()) return out;
   out.pairs_after = CountAntipodalPairs(out.result.mesh, pairs);
   out.graspability_after =

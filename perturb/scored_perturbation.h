@@ -8,6 +8,7 @@
 #include "antigrasp/core/rng.h"
 #include "antigrasp/perturb/mesh_change.h"
 #include "antigrasp/perturb/perturbation.h"
+#include "antigrasp/perturb/subdivide.h"
 #include "antigrasp/quality/graspability.h"
 
 namespace antigrasp {
@@ -19,6 +20,7 @@ using PerturbMethod = std::function<PerturbResult(const TriangleMesh& mesh, cons
 
 struct PerturbSettings {
   PerturbMethod method;
+  SubdivideOptions subdivide;  // before everything else
   PerturbOptions common;
   MetricOptions metric;
   std::uint64_t seed = 1;
@@ -27,7 +29,7 @@ struct PerturbSettings {
 // An object before and after, with all that is reported about it. What does not exist (no result,
 // no evaluable mesh) is NaN or -1.
 struct ScoredPerturbation {
-  TriangleMesh before;  // the input in single precision about its own place
+  TriangleMesh before;  // the input, subdivided, in single precision about its own place
   PerturbResult result;
   double graspability_before, graspability_after;  // under the same random numbers
   std::int64_t pairs_before = -1, pairs_after = -1;
@@ -38,7 +40,8 @@ struct ScoredPerturbation {
 
 // Both meshes are scored as object number `object`; the algorithm draws from the stream
 // (seed, "perturb", object). Single thread. The algorithm's progress is passed on. Any mesh; what
-// is no solid is returned with result.failure. Wherever it lies: all work is done at the origin
+// is no solid is returned with result.failure, and so is what no algorithm could move because it
+// has too few vertices ("unchanged: ..."). Wherever it lies: all work is done at the origin
 // (RoundPlace), and the meshes come back where the input is.
 ScoredPerturbation PerturbAndScore(const TriangleMesh& mesh, const PerturbSettings& settings,
                                    std::uint64_t object, const ProgressFn& progress = nullptr);

@@ -159,6 +159,57 @@ TEST(PerturbCli, NamesTheObjectsThatCannotBePerturbedAndGoesOn) {
   EXPECT_FALSE(fs::exists(folder / "out/after/two.stl"));
 }
 
+TEST(PerturbCli, SubdividesAFlatPartOrNamesItAndLeavesItOutOfTheMean) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteMesh(folder / "box.stl", shapes::Box({20.0, 30.0, 50.0}));
+  WriteMesh(folder / "ball.stl", shapes::Sphere(20.0, 3));
+  const std::string search = "perturb search " + dir + "box.stl " + dir +
+                             "ball.stl --alpha 20 --steps 60 --grasps 60 --num-grasps 50 "
+                             "--num-draws 10 --out " +
+                             dir;
+  ASSERT_EQ(Antigrasp(search + "fine").code, 0);
+  auto rows = Rows(folder / "fine/perturb.csv");
+  EXPECT_EQ(rows["box.stl"]["status"], "ok");
+  EXPECT_EQ(rows["box.stl"]["faces_before"], "12");
+  EXPECT_GT(std::stol(rows["box.stl"]["faces_after"]), 1000);
+  EXPECT_LT(std::stod(rows["box.stl"]["difference"]), 0.0);
+  EXPECT_EQ(rows["ball.stl"]["faces_after"], "1280");  // fine enough as it is
+  const TriangleMesh before = ReadMesh(folder / "fine/before/box.stl");
+  EXPECT_NEAR(Volume(before), 30000.0, 1e-6);  // in the input's millimetres
+  EXPECT_NEAR(Bounds(ReadMesh(folder / "fine/after/box.stl")).Extent().z(), 50.0, 2.0);
+
+  // With many grasps to a score, so that no chance makes one of its eight corners worth moving.
+  const Outcome outcome =
+      Antigrasp("perturb search " + dir + "box.stl " + dir +
+                "ball.stl --alpha 10 --steps 20 --subdivide 100 --out " + dir + "coarse");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  rows = Rows(folder / "coarse/perturb.csv");
+  EXPECT_EQ(rows["box.stl"]["status"], "unchanged: too few vertices: 8");
+  EXPECT_EQ(rows["box.stl"]["moved"], "0");
+  EXPECT_FALSE(fs::exists(folder / "coarse/after/box.stl"));
+  EXPECT_TRUE(fs::exists(folder / "coarse/before/box.stl"));
+  EXPECT_NE(outcome.text.find("1 of 2 objects perturbed"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("failed: 1 unchanged"), std::string::npos) << outcome.text;
+  ExpectRefused(search + "x --subdivide 0.1", "perturb.subdivide = 0.1");
+}
+
+TEST(PerturbCli, ResultsOfAnImportedSetAreInTheUnitOfItsMeshes) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteMesh(folder / "box.stl", shapes::Box({20.0, 30.0, 50.0}));
+  ASSERT_EQ(Antigrasp("dataset import " + dir + "box.stl --out " + dir + "box.h5").code, 0);
+  ASSERT_EQ(
+      Antigrasp("perturb random " + dir + "box.h5 --iterations 20 --out " + dir + "p" + kQuick)
+          .code,
+      0);
+  for (const char* file : {"p/before/box.stl", "p/after/box.stl"}) {
+    // To a third of a node, 50 / 28 mm.
+    const Eigen::Vector3d extent = Bounds(ReadMesh(folder / file)).Extent();
+    EXPECT_NEAR((extent - Eigen::Vector3d(20.0, 30.0, 50.0)).cwiseAbs().maxCoeff(), 0.0, 0.6);
+  }
+}
+
 TEST(PerturbCli, RefusesBadInputInOneLineAndWritesNothing) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/";

@@ -116,7 +116,7 @@ TEST_F(UnitsCli, SizesThatSpeakForAnotherUnitAreWarnedOf) {
   // An opening that no palm carries is refused, by the same words.
   const std::string metres =
       "metric.jaw_opening = 85 is 85 m: the metric's lengths are in metres, 85 mm are 0.085";
-  cli::ExpectRefused("evaluate " + File("mm.obj") + "--jaw-opening 85", metres);
+  ExpectRefused("evaluate " + File("mm.obj") + "--jaw-opening 85", metres);
   const Outcome jaws = Antigrasp("evaluate " + File("mm.obj") + kFewGrasps +
                                  "--collision jaws --jaw-opening 85 " + out);
   EXPECT_EQ(jaws.code, 0) << jaws.text;
