@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace antigrasp {
@@ -14,6 +15,7 @@ struct RejectedGrasps {
   std::vector<Reason> reasons;  // the grasp model's, in its order; empty before there was a model
   int copies = 0;               // of a grasp already kept
 
+  int Of(std::string_view reason) const;  // 0 for a reason that is not there
   void Add(const RejectedGrasps& other);  // reasons that are not there yet follow at the end
 };
 
