@@ -10,7 +10,6 @@
 #include "antigrasp/mesh/repair.h"
 #include "antigrasp/quality/graspability.h"
 #include "tests/app/run_binary.h"
-#include "tests/quality/rejected_counts.h"
 #include "tests/support/csv_rows.h"
 #include "tests/support/shapes.h"
 
@@ -77,10 +76,10 @@ TEST(EvaluateCli, WritesEveryNumberOfAScoreUnderItsOwnName) {
     EXPECT_EQ(Number(rows[i], "fraction_nonzero"), score.fraction_nonzero);
     EXPECT_GE(Number(rows[i], "seconds"), 0.0);
     attempts += score.attempts;
-    open += CountOf(score.rejected, "nothing within the opening");
-    slips += CountOf(score.rejected, "slip");
-    blocked += CountOf(score.rejected, "jaw blocked");
-    collides += CountOf(score.rejected, "gripper collides");
+    open += score.rejected.Of("nothing within the opening");
+    slips += score.rejected.Of("slip");
+    blocked += score.rejected.Of("jaw blocked");
+    collides += score.rejected.Of("gripper collides");
     copies += score.rejected.copies;
   }
   char line[256];

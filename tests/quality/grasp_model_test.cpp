@@ -105,8 +105,8 @@ TEST(GraspModel, GivesTheCandidatesAndNamesTheReasonsOfTheRefusedOnes) {
   EXPECT_EQ(g.rejected.copies, 0);
   EXPECT_EQ(CountOfAll(g.rejected) + static_cast<int>(g.grasps.size()), 3000);
   // Shares of the surface; three standard deviations of a share are at most 0.027.
-  EXPECT_NEAR(CountOf(g.rejected, "too steep") / 3000.0, kSteep / kSurface, 0.027);
-  EXPECT_NEAR(CountOf(g.rejected, "covered") / 3000.0, kCovered / kSurface, 0.027);
+  EXPECT_NEAR(g.rejected.Of("too steep") / 3000.0, kSteep / kSurface, 0.027);
+  EXPECT_NEAR(g.rejected.Of("covered") / 3000.0, kCovered / kSurface, 0.027);
   for (const ScoredGrasp& scored : g.grasps) {
     EXPECT_EQ(scored.grasp.contacts[1].point, scored.grasp.contacts[0].point);
     EXPECT_EQ(scored.grasp.approach, -kUp);
@@ -220,8 +220,8 @@ TEST(RejectedGrasps, AddUpByNameInTheFirstOnesOrder) {
   EXPECT_EQ(sum.reasons[2].count, 30);
   EXPECT_EQ(sum.copies, 44);
   EXPECT_EQ(CountOfAll(sum), 109);
-  EXPECT_EQ(CountOf(sum, "covered"), 13);
-  EXPECT_EQ(CountOf(sum, "blocked"), 0);
+  EXPECT_EQ(sum.Of("covered"), 13);
+  EXPECT_EQ(sum.Of("blocked"), 0);
 }
 
 }  // namespace

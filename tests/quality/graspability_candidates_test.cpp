@@ -9,7 +9,6 @@
 #include "antigrasp/quality/epsilon.h"
 #include "antigrasp/quality/graspability.h"
 #include "antigrasp/quality/reachability.h"
-#include "tests/quality/rejected_counts.h"
 #include "tests/support/shapes.h"
 
 namespace antigrasp {
@@ -120,11 +119,11 @@ TEST(Graspability, CountsEachCandidateUnderItsOwnReason) {
     }
   }
   EXPECT_EQ(g.attempts, 1500);
-  EXPECT_EQ(CountOf(g.rejected, "nothing within the opening"), reasons[0]);
-  EXPECT_EQ(CountOf(g.rejected, "slip"), reasons[1]);
-  EXPECT_EQ(CountOf(g.rejected, "jaw blocked"), reasons[2]);
+  EXPECT_EQ(g.rejected.Of("nothing within the opening"), reasons[0]);
+  EXPECT_EQ(g.rejected.Of("slip"), reasons[1]);
+  EXPECT_EQ(g.rejected.Of("jaw blocked"), reasons[2]);
   EXPECT_EQ(g.rejected.copies, copies);
-  EXPECT_EQ(CountOf(g.rejected, "gripper collides"), collides);
+  EXPECT_EQ(g.rejected.Of("gripper collides"), collides);
   EXPECT_EQ(g.grasps.size(), kept.size());
   for (const int count : {reasons[0], reasons[1], reasons[2], copies, turned_copies, collides}) {
     EXPECT_GT(count, 2);

@@ -28,7 +28,7 @@ MetricOptions Noise(const std::string& preset) {
 void ExpectSame(const Graspability& a, const Graspability& b) {
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.attempts, b.attempts);
-  EXPECT_EQ(CountOf(a.rejected, "gripper collides"), CountOf(b.rejected, "gripper collides"));
+  EXPECT_EQ(a.rejected.Of("gripper collides"), b.rejected.Of("gripper collides"));
   if (a.status != GraspabilityStatus::kNotEvaluable) {
     EXPECT_EQ(a.value, b.value);
     EXPECT_EQ(a.ci_low, b.ci_low);
@@ -234,8 +234,7 @@ TEST(Graspability, AttemptsAreTheGraspsAndTheRejectedOfEveryReason) {
       options.collision = collision;
       const Graspability g = EvaluateGraspability(mesh, options, 1, 0);
       EXPECT_EQ(g.attempts, static_cast<int>(g.grasps.size()) + CountOfAll(g.rejected));
-      EXPECT_EQ(CountOf(g.rejected, "gripper collides") > 0,
-                options.collision == Collision::kGripper);
+      EXPECT_EQ(g.rejected.Of("gripper collides") > 0, options.collision == Collision::kGripper);
     }
   }
 }
@@ -251,9 +250,9 @@ TEST(Graspability, TheGripperKeepsThoseOfTheJawsGraspsThatItReaches) {
   const Graspability reached = EvaluateGraspability(mesh, gripper, 1, 0);
   const Graspability all = EvaluateGraspability(mesh, jaws, 1, 0);
   EXPECT_EQ(reached.attempts, all.attempts);
-  EXPECT_EQ(reached.grasps.size() +
-                static_cast<std::size_t>(CountOf(reached.rejected, "gripper collides")),
-            all.grasps.size());
+  EXPECT_EQ(
+      reached.grasps.size() + static_cast<std::size_t>(reached.rejected.Of("gripper collides")),
+      all.grasps.size());
   const TriangleMesh scaled = Transformed(mesh, all.scale, Vector3d::Zero());
   const RayScene scene(scaled);
   const GripperCollision collision(scaled, scene, gripper.gripper);
@@ -283,7 +282,7 @@ TEST(Graspability, ABallInAClosedBoxHasGraspsForTheJawsButNoneForTheGripper) {
   options.collision = Collision::kGripper;
   const Graspability g = EvaluateGraspability(mesh, options, 1, 0);
   for (const ScoredGrasp& scored : g.grasps) EXPECT_GT(scored.grasp.center.norm(), 0.05);
-  EXPECT_GT(CountOf(g.rejected, "gripper collides"), 5);
+  EXPECT_GT(g.rejected.Of("gripper collides"), 5);
 }
 
 TEST(ScoreAll, GivesTheSameBitsForAnyNumberOfThreadsAndEachObjectItsOwnStream) {
