@@ -10,12 +10,6 @@ int RejectedGrasps::Of(std::string_view reason) const {
   return found == reasons.end() ? 0 : found->count;
 }
 
-int RejectedGrasps::Of(std::string_view reason) const {
-  const auto found = std::find_if(reasons.begin(), reasons.end(),
-                                  [&](const Reason& r) { return r.name == reason; });
-  return found == reasons.end() ? 0 : found->count;
-}
-
 void RejectedGrasps::Add(const RejectedGrasps& other) {
   copies += other.copies;
   for (const Reason& reason : other.reasons) {

@@ -16,7 +16,6 @@ struct RejectedGrasps {
   int copies = 0;               // of a grasp already kept
 
   int Of(std::string_view reason) const;  // 0 for a reason that is not there
-  int Of(std::string_view reason) const;  // 0 for a reason that is not there
   void Add(const RejectedGrasps& other);  // reasons that are not there yet follow at the end
 };
 
