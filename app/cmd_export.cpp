@@ -7,11 +7,10 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
-#include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/ordered_stream.h"
-#include "antigrasp/core/staged_folder.h"
 #include "antigrasp/datasets/objects.h"
+#include "antigrasp/datasets/result_folder.h"
 #include "antigrasp/export/print_table.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/mesh_format.h"
@@ -34,16 +33,13 @@ struct ExportFlags {
   double size_mm = 60.0;
   bool true_size = false;
   LengthUnit units = LengthUnit::kM;
+  bool overwrite = false;
   int threads = 0;
 
   double SizeOf(const TriangleMesh& mesh) const {
     return true_size ? 1000.0 * MetresPer(units) * Bounds(mesh).Extent().maxCoeff() : size_mm;
   }
 };
-
-std::string FileOf(const std::string& name, const ExportFlags& flags) {
-  return FileNameOf(name) + "." + flags.format;
-}
 
 // A usable object that is a printable solid, placed as it will be written; else why it is none.
 struct Placed {
@@ -53,7 +49,8 @@ struct Placed {
 };
 
 Placed PlaceForPrint(InputObject object, const ExportFlags& flags, const PrintOptions& options) {
-  Placed placed{{object.name, {}}, object.note, "", {}};
+  Placed placed{
+      {object.name, FileNameOf(object.name) + "." + flags.format, {}}, object.note, "", {}};
   if (!object.ok()) {
     placed.refusal = object.status;
     return placed;
@@ -68,20 +65,10 @@ Placed PlaceForPrint(InputObject object, const ExportFlags& flags, const PrintOp
   return placed;
 }
 
-// Nothing is written that was there before the call as an object.
-void RequireOtherFiles(const ObjectSource& objects, const ExportFlags& flags) {
-  if (!std::filesystem::exists(flags.out)) return;
-  std::vector<std::filesystem::path> written;
-  for (std::int64_t i = 0; i < objects.size(); ++i) {
-    written.push_back(std::filesystem::path(flags.out) / FileOf(objects.name(i), flags));
-  }
-  objects.RequireNotRead(written);
-}
-
 void Export(const ExportFlags& flags, const PrintOptions& options) {
   const ObjectSource objects(flags.inputs);
-  RequireOtherFiles(objects, flags);
-  StagedFolder staged(flags.out);
+  ResultFolder results(flags.out, {"print.csv", {}, {"NAME." + flags.format}}, objects,
+                       flags.overwrite);
   PrintTable solids(options);
   std::vector<std::string> refusals;
   MetricOptions as_it_is;
@@ -98,7 +85,7 @@ void Export(const ExportFlags& flags, const PrintOptions& options) {
           refusals.push_back(item.printed.name + ": " + item.refusal);
           return;
         }
-        WriteMesh(staged.path() / FileOf(item.printed.name, flags), item.mesh);
+        WriteMesh(results.path() / item.printed.file, item.mesh);
         const PrintCheck& check = item.printed.check;
         if (flags.true_size) sizes.Add(item.printed.name, check.size_mm / check.mm_per_unit);
         solids.Add(std::move(item.printed));
@@ -108,8 +95,7 @@ void Export(const ExportFlags& flags, const PrintOptions& options) {
     throw InputError(refusals.front(), flags.inputs.front(), "a closed solid");
   for (const std::string& refusal : refusals) spdlog::warn("not exported: {}", refusal);
   for (const std::string& size : sizes.Texts()) spdlog::warn("{}", size);
-  staged.Commit();
-  WriteFileAtomic(std::filesystem::path(flags.out) / "print.csv", solids.Csv());
+  results.Commit(solids.Csv());
   std::printf("%zu of %zu objects in %s, ", solids.size(), solids.size() + refusals.size(),
               flags.out.c_str());
   if (flags.true_size) {
@@ -128,6 +114,7 @@ void AddExportCommand(CLI::App* app) {
       app->add_subcommand("export", "Write printable solids in millimetres and check their print");
   command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
   command->add_option("--out", flags->out, "folder of the meshes and print.csv")->required();
+  AddOverwrite(command, &flags->overwrite);
   command->add_option("--format", flags->format, Alternatives(WritableExtensions()))
       ->check(CLI::IsMember(WritableExtensions()))
       ->capture_default_str();

@@ -11,6 +11,7 @@
 #include "antigrasp/app/object_notes.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/datasets/result_folder.h"
 #include "antigrasp/perturb/antipodal_rotation.h"
 #include "antigrasp/perturb/exhaustive.h"
 #include "antigrasp/perturb/perturb_folder.h"
@@ -25,6 +26,7 @@ struct PerturbFlags {
   std::vector<std::string> inputs;
   std::string out;
   std::uint64_t seed = 1;
+  bool overwrite = false;
   int threads = 0;
 };
 
@@ -85,12 +87,14 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
              const std::string& constants) {
   ConsoleObserver console;
   CheckPerturbFolder(flags.inputs, flags.out);
-  auto inputs = LoadObjects(flags.inputs, flags.threads, console.Phase("reading"));
+  const ObjectSource source(flags.inputs);
+  ResultFolder results(flags.out, PerturbFiles(), source, flags.overwrite);
+  auto inputs = LoadObjects(source, flags.threads, console.Phase("reading"));
   WarnOfNotes(inputs);
   WarnOfSizes(inputs, settings.metric);
   const auto objects =
       PerturbAll(std::move(inputs), settings, flags.threads, console.Phase("perturbing"));
-  const std::filesystem::path out(flags.out);
+  const std::filesystem::path& out = results.path();
   for (const std::string& note : WritePerturbedMeshes(objects, out)) spdlog::warn("{}", note);
   std::vector<PerturbRow> rows;
   std::vector<PerturbHistory> histories;
@@ -102,13 +106,20 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
   WriteFileAtomic(out / "perturb.toml", constants);
   WritePerturbedSheet(objects, out, flags.threads);
   WriteFileAtomic(out / "summary.csv", PerturbMeansCsv(MeansOf(rows)));
-  WriteFileAtomic(out / "perturb.csv", PerturbCsv(rows));  // last: the rest is there
+  results.Commit(PerturbCsv(rows));
   for (const PerturbedObject& item : objects) {
     if (item.Status() != "ok") spdlog::warn("{}: {}", item.object.name, item.Status());
   }
-  std::printf("%smeshes before and after, their picture (sheet.png) and perturb.csv in %s\n",
-              PerturbSummary(objects).c_str(), flags.out.c_str());
+  std::fputs(PerturbSummary(objects).c_str(), stdout);
+  const bool any = MeansOf(rows).ok > 0;
+  if (any) {
+    std::printf("meshes before and after, their picture (sheet.png) and perturb.csv in %s\n",
+                flags.out.c_str());
+  }
   if (InterruptRequested()) throw Interrupted();
+  if (!any) {
+    throw RuntimeFailure("no object was perturbed: " + results.table().string() + " says why");
+  }
 }
 
 // One subcommand: the options of its own algorithm, those that the paper's three share, and the
@@ -122,6 +133,7 @@ void AddMethod(CLI::App* perturb, const std::string& name, const std::string& he
   command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
   command->add_option("--out", flags->out, "folder for before/, after/, sheet.png and perturb.csv")
       ->required();
+  AddOverwrite(command, &flags->overwrite);
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
   command->add_option("--threads", flags->threads, "threads; 0 = all; results do not depend on it")
       ->check(CLI::Range(0, 1024))

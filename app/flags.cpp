@@ -64,6 +64,11 @@ CLI::Validator NumberIn(double low, double high) {
           "FLOAT in " + range, "NumberIn"};
 }
 
+void AddOverwrite(CLI::App* command, bool* overwrite) {
+  command->add_flag("--overwrite", *overwrite,
+                    "replace what an earlier call wrote into --out; other files there stay");
+}
+
 OptionFlags::OptionFlags(CLI::App* command, const OptionTable& table, const std::string& group) {
   for (const Option& option : table.options()) {
     const auto given = given_;

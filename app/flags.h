@@ -66,6 +66,9 @@ void AddChoice(CLI::App* command, const std::string& flag, E* target, const std:
       ->default_str(ChoiceName(*target));
 }
 
+// --overwrite of a command that fills a folder (datasets/result_folder.h).
+void AddOverwrite(CLI::App* command, bool* overwrite);
+
 // "metric.num_grasps" -> "--num-grasps"; the gripper's keep their section: "gripper.palm_width" ->
 // "--gripper-palm-width".
 std::string FlagOf(const std::string& key);

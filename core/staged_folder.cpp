@@ -38,6 +38,20 @@ void RemoveAbandoned(const fs::path& folder) {
   for (const fs::path& path : abandoned) fs::remove_all(path, ignored);
 }
 
+// A folder is moved file by file: there may be one of its name with files of others.
+void Move(const fs::path& from, const fs::path& to) {
+  if (fs::is_directory(from)) {
+    MakeFolder(to);
+    for (const auto& entry : fs::directory_iterator(from)) {
+      Move(entry.path(), to / entry.path().filename());
+    }
+    return;
+  }
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) throw RuntimeFailure("cannot write " + to.string() + ": " + error.message());
+}
+
 }  // namespace
 
 StagedFolder::StagedFolder(fs::path folder)
@@ -57,16 +71,12 @@ StagedFolder::~StagedFolder() {
   if (made_) fs::remove(folder_, ignored);  // only an empty one goes
 }
 
-void StagedFolder::Commit() {
+void StagedFolder::Commit(const std::string& last) {
   for (const auto& entry : fs::directory_iterator(path_)) {
-    if (entry.path().filename() == kLock) continue;
-    std::error_code error;
-    fs::rename(entry.path(), folder_ / entry.path().filename(), error);
-    if (error) {
-      throw RuntimeFailure("cannot write " + (folder_ / entry.path().filename()).string() + ": " +
-                           error.message());
-    }
+    const fs::path name = entry.path().filename();
+    if (name != kLock && name != last) Move(entry.path(), folder_ / name);
   }
+  if (!last.empty()) Move(path_ / last, folder_ / last);
 }
 
 }  // namespace antigrasp

@@ -75,7 +75,8 @@ PrintTable::PrintTable(const PrintOptions& options)
             "r20",
             "r21",
             "r22",
-            "notes"}),
+            "notes",
+            "file"}),
       thinnest_(std::numeric_limits<double>::infinity()) {}
 
 void PrintTable::Add(PrintedObject object) {
@@ -90,7 +91,7 @@ void PrintTable::Add(PrintedObject object) {
   for (int row = 0; row < 3; ++row) add(check.table_from_object.row(row));
   std::string notes;
   for (const std::string& note : check.notes) notes += (notes.empty() ? "" : " ") + note;
-  csv_.Text(notes).EndRow();
+  csv_.Text(notes).Text(object.file).EndRow();
 
   const double wall = check.wall_mm.value_or(std::numeric_limits<double>::infinity());
   thinnest_ = std::min(thinnest_, wall);

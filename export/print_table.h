@@ -9,7 +9,7 @@
 namespace antigrasp {
 
 struct PrintedObject {
-  std::string name;
+  std::string name, file;
   PrintCheck check;
 };
 

@@ -81,10 +81,13 @@ std::string PerturbSummary(const std::vector<PerturbedObject>& objects) {
   return text + "\n" + (failed.empty() ? "" : "failed: " + failed + "\n");
 }
 
+ResultFiles PerturbFiles() {
+  return {"perturb.csv",
+          {"perturb.toml", "history.csv", "summary.csv", "sheet.png"},
+          {"before/NAME.stl", "before/NAME.ply", "after/NAME.stl", "after/NAME.ply"}};
+}
+
 void CheckPerturbFolder(const std::vector<std::string>& inputs, const fs::path& out) {
-  if (fs::exists(out) && !fs::is_directory(out)) {
-    throw InputError("cannot write into " + out.string(), "--out", "a folder, or nothing there");
-  }
   for (const std::string& input : inputs) {
     const fs::path path = fs::absolute(input).lexically_normal();
     const fs::path folder = fs::is_directory(path) ? path : path.parent_path();
@@ -96,9 +99,6 @@ void CheckPerturbFolder(const std::vector<std::string>& inputs, const fs::path& 
       }
     }
   }
-  fs::path parent = fs::absolute(out);
-  while (!fs::exists(parent)) parent = parent.parent_path();
-  const AtomicFile probe(parent / "perturb.csv");  // refuses what is not writable
 }
 
 std::vector<std::string> WritePerturbedMeshes(const std::vector<PerturbedObject>& objects,

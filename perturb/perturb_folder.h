@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "antigrasp/datasets/objects.h"
+#include "antigrasp/datasets/result_folder.h"
 #include "antigrasp/perturb/perturb_table.h"
 #include "antigrasp/perturb/scored_perturbation.h"
 
@@ -26,8 +27,11 @@ PerturbHistory HistoryOf(const PerturbedObject& item);
 // What changed on average, and the failed objects by reason; two or three lines.
 std::string PerturbSummary(const std::vector<PerturbedObject>& objects);
 
-// InputError, with nothing written, unless `out` is a folder or can become one and no result would
-// be written over an input.
+// All that may lie in the folder of results.
+ResultFiles PerturbFiles();
+
+// InputError when the folder of results would be one that objects are read from: the next call
+// would take its results for objects.
 void CheckPerturbFolder(const std::vector<std::string>& inputs, const std::filesystem::path& out);
 
 // out/after/NAME.stl for every printable result, out/before/NAME.stl for every usable input that

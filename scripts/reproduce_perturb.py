@@ -105,7 +105,7 @@ class Runner:
             left = f", {self.left * self.rate / 60:.0f} min left" if self.rate else ""
             print(f"{setting.label}, {kind}{left}", flush=True)
             shutil.rmtree(folder, ignore_errors=True)
-            call("perturb", *setting.flags.split(), self.prior(kind), "--out", folder)
+            call("perturb", *setting.flags.split(), self.prior(kind), "--out", folder, allowed=(0, 1))  # 1: no object
             if any((folder / "after").iterdir()):
                 call("evaluate", folder / "after", "--baseline", folder / "before", "--noise", "dexnet", "--out", scores)
             else:
@@ -159,7 +159,7 @@ def figure_1(path, runner):
     for ax, cone in zip(axes, (10, 26.565)):
         for seed in range(1, 6):
             folder = runner.out / f"dodecahedron-{cone}-{seed}"
-            call("perturb", "exhaustive", solid, "--cone", cone, "--seed", seed, "--history", "--out", folder)
+            call("perturb", "exhaustive", solid, "--cone", cone, "--seed", seed, "--history", "--overwrite", "--out", folder)
             with open(folder / "history.csv") as table:
                 history = [{name: float(row[name]) for name in HISTORY} for row in csv.DictReader(table)]
             iterations, pairs, below = ([row[name] for row in history] for name in HISTORY)

@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 using cli::Antigrasp;
 using cli::ExpectRefused;
 using cli::Outcome;
+using shapes::FileContents;
 using shapes::TempFolder;
 
 constexpr const char* kQuick = " --num-grasps 10 --num-draws 3 ";
@@ -41,16 +42,6 @@ std::map<std::string, std::map<std::string, std::string>> Rows(const fs::path& f
     rows[row["object"]] = row;
   }
   return rows;
-}
-
-// Every file under the folder with its bytes.
-std::map<std::string, std::string> Contents(const fs::path& folder) {
-  std::map<std::string, std::string> contents;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    contents[fs::relative(entry.path(), folder).string()] = ReadFile(entry.path());
-  }
-  return contents;
 }
 
 TEST(PerturbCli, EveryMethodWritesSolidsTheOriginalsATableAndItsSettings) {
@@ -110,7 +101,7 @@ TEST(PerturbCli, SearchLowersGraspabilityAndKeepsEveryNormalWithinAlpha) {
     EXPECT_LE(std::stod(row["normal_max_deg"]), 15.0);
   }
   ASSERT_EQ(Antigrasp(search + "2 --threads 2").code, 0);
-  EXPECT_TRUE(Contents(folder / "1") == Contents(folder / "2"));
+  EXPECT_TRUE(FileContents(folder / "1") == FileContents(folder / "2"));
 }
 
 TEST(PerturbCli, WritesTheSameBytesForAnyNumberOfThreadsAndOthersForAnotherSeed) {
@@ -122,16 +113,16 @@ TEST(PerturbCli, WritesTheSameBytesForAnyNumberOfThreadsAndOthersForAnotherSeed)
   ASSERT_EQ(Antigrasp(random + "1 --threads 1").code, 0);
   ASSERT_EQ(Antigrasp(random + "2 --threads 3").code, 0);
   ASSERT_EQ(Antigrasp(random + "3 --seed 2").code, 0);
-  const auto contents = Contents(folder / "1");
+  const auto contents = FileContents(folder / "1");
   // 2 meshes, 2 originals, perturb.csv, perturb.toml, sheet.png, summary.csv
   EXPECT_EQ(contents.size(), 8u);
   EXPECT_EQ(contents.at("summary.csv"), Antigrasp("info " + dir + "1 --csv").text);
-  EXPECT_TRUE(contents == Contents(folder / "2"));
-  EXPECT_FALSE(contents == Contents(folder / "3"));
+  EXPECT_TRUE(contents == FileContents(folder / "2"));
+  EXPECT_FALSE(contents == FileContents(folder / "3"));
   const std::string rotation = "perturb rotation --history" + common;
   ASSERT_EQ(Antigrasp(rotation + "4 --threads 1").code, 0);
   ASSERT_EQ(Antigrasp(rotation + "5 --threads 3").code, 0);
-  EXPECT_TRUE(Contents(folder / "4") == Contents(folder / "5"));
+  EXPECT_TRUE(FileContents(folder / "4") == FileContents(folder / "5"));
   EXPECT_EQ(Rows(folder / "4/history.csv").size(), 2u);  // the last row of each
 }
 

@@ -26,6 +26,37 @@ TEST(StagedFolder, ItsFilesAppearTogetherAndTakeThePlaceOfOlderOnes) {
   EXPECT_EQ(ReadFile(folder / "b"), "other");
 }
 
+TEST(StagedFolder, ItsFoldersAreFilledUpAndWhatOthersHaveThereStays) {
+  const TempFolder folder;
+  folder.Write("after/a", "old");
+  folder.Write("after/mine", "mine");
+  StagedFolder staged(folder.path());
+  fs::create_directories(staged.path() / "after/deep");
+  fs::create_directories(staged.path() / "before");
+  WriteFileAtomic(staged.path() / "after/a", "new");
+  WriteFileAtomic(staged.path() / "after/deep/b", "other");
+  staged.Commit();
+  EXPECT_EQ(ReadFile(folder / "after/a"), "new");
+  EXPECT_EQ(ReadFile(folder / "after/mine"), "mine");
+  EXPECT_EQ(ReadFile(folder / "after/deep/b"), "other");
+  EXPECT_TRUE(fs::is_directory(folder / "before"));
+}
+
+TEST(StagedFolder, WhatIsToComeLastDoesNotComeBeforeAllElseIsThere) {
+  for (const char* last : {"a", "c"}) {
+    const TempFolder folder;
+    fs::create_directories(folder / "b/in the way");
+    StagedFolder staged(folder.path());
+    for (const char* name : {"a", "b", "c"}) WriteFileAtomic(staged.path() / name, "new");
+    EXPECT_THROW(staged.Commit(last), RuntimeFailure);
+    EXPECT_FALSE(fs::exists(folder / last)) << last;
+    fs::remove_all(folder / "b");
+    WriteFileAtomic(staged.path() / "b", "new");
+    staged.Commit(last);
+    EXPECT_EQ(ReadFile(folder / last), "new");
+  }
+}
+
 TEST(StagedFolder, WithoutCommitTheFolderIsAsItWas) {
   const TempFolder folder;
   folder.Write("a", "old");

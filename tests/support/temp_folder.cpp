@@ -34,4 +34,15 @@ int CountFiles(const std::filesystem::path& folder) {
   return static_cast<int>(std::distance(std::filesystem::recursive_directory_iterator(folder), {}));
 }
 
+std::map<std::string, std::string> FileContents(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream in(entry.path(), std::ios::binary);
+    contents[std::filesystem::relative(entry.path(), folder).string()] = {
+        std::istreambuf_iterator<char>(in), {}};
+  }
+  return contents;
+}
+
 }  // namespace antigrasp::shapes

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -26,5 +27,7 @@ class TempFolder {
 
 // Files and folders in it, those of folders too.
 int CountFiles(const std::filesystem::path& folder);
+// Every file under the folder, by its path from there, with its bytes.
+std::map<std::string, std::string> FileContents(const std::filesystem::path& folder);
 
 }  // namespace antigrasp::shapes

@@ -1,0 +1,105 @@
+#include "antigrasp/datasets/result_folder.h"
+
+#include <system_error>
+
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/csv_reader.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/datasets/object_names.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+using Paths = std::vector<fs::path>;
+
+bool IsThere(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(fs::symlink_status(path, ignored));
+}
+
+void AddFilesOf(const std::string& object, const ResultFiles& files, Paths* paths) {
+  constexpr std::string_view kName = "NAME";
+  for (std::string path : files.of_object) {
+    path.replace(path.find(kName), kName.size(), FileNameOf(object));
+    paths->emplace_back(path);
+  }
+}
+
+// What an earlier call wrote, by its table. A damaged one says nothing.
+Paths NamedIn(const fs::path& table, const ResultFiles& files) {
+  Paths paths;
+  try {
+    CsvReader csv(table);
+    const auto file = csv.Column("file");
+    const std::size_t object = csv.RequiredColumn("object");
+    while (csv.Next()) {
+      if (!file) {
+        AddFilesOf(csv.Field(object), files, &paths);
+      } else if (const fs::path path = csv.Field(*file); path == path.filename()) {
+        paths.push_back(path);  // an empty one is none
+      }
+    }
+  } catch (const InputError&) {
+  }
+  return paths;
+}
+
+Paths ThoseThere(const fs::path& folder, const Paths& paths) {
+  Paths there;
+  for (const fs::path& path : paths) {
+    if (!path.empty() && IsThere(folder / path)) there.push_back(folder / path);
+  }
+  return there;
+}
+
+void RequireRemovable(const Paths& paths, const ObjectSource& objects) {
+  objects.RequireNotRead(paths);
+  for (const fs::path& path : paths) {
+    if (fs::is_directory(path)) throw InputError("is a folder", path.string(), "a file or nothing");
+  }
+}
+
+// Every file that must give way to the call's, the table last.
+Paths OldFiles(const fs::path& folder, const ResultFiles& files, const ObjectSource& objects,
+               bool overwrite) {
+  if (!fs::exists(folder)) return {};
+  Paths written(files.of_call.begin(), files.of_call.end());
+  for (std::int64_t i = 0; i < objects.size(); ++i) AddFilesOf(objects.name(i), files, &written);
+  Paths old = ThoseThere(folder, written);
+  RequireRemovable(old, objects);
+  const bool has_table = IsThere(folder / files.table);
+  if ((has_table || !old.empty()) && !overwrite) {
+    const std::string one =
+        has_table ? files.table : old.front().lexically_relative(folder).string();
+    throw InputError("holds " + one + " already", folder.string(),
+                     "a new folder, or --overwrite to replace what an earlier call wrote");
+  }
+  if (!has_table) return old;
+  const Paths named = ThoseThere(folder, NamedIn(folder / files.table, files));
+  RequireRemovable(named, objects);
+  old.insert(old.end(), named.begin(), named.end());
+  old.push_back(folder / files.table);
+  return old;
+}
+
+}  // namespace
+
+ResultFolder::ResultFolder(const fs::path& folder, const ResultFiles& files,
+                           const ObjectSource& objects, bool overwrite)
+    : folder_(folder),
+      table_(files.table),
+      old_(OldFiles(folder, files, objects, overwrite)),
+      staged_(folder) {}
+
+void ResultFolder::Commit(const std::string& table_text) {
+  WriteFileAtomic(path() / table_, table_text);  // a full disk is met before anything goes
+  for (const fs::path& old : old_) {
+    std::error_code error;
+    fs::remove(old, error);
+    if (error) throw RuntimeFailure("cannot remove " + old.string() + ": " + error.message());
+  }
+  staged_.Commit(table_);
+}
+
+}  // namespace antigrasp
