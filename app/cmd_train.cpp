@@ -1,5 +1,6 @@
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -41,6 +42,19 @@ struct TrainFlags {
 ModelOptions ModelOf(const std::string& networks) {
   const fs::path path = FindNetworks(networks);
   return NetworksFromToml(ReadCheckpoint(path).config, path.string()).model;
+}
+
+// --set takes every word up to the next option, so also a configuration that stands behind the
+// settings: the word that is no KEY=VALUE.
+void TakeConfigFromSettings(TrainFlags* flags) {
+  const auto config =
+      std::find_if(flags->overrides.begin(), flags->overrides.end(), [](const std::string& word) {
+        const std::size_t equals = word.find('=');
+        return equals == std::string::npos || word.find('/') < equals;
+      });
+  if (config == flags->overrides.end() || !flags->config.empty()) return;
+  flags->config = *config;
+  flags->overrides.erase(config);
 }
 
 RunConfig ReadConfig(const TrainFlags& flags) {
@@ -122,9 +136,10 @@ void AddTrainCommand(CLI::App* app) {
   command->add_flag("--or-resume", flags->or_resume,
                     "if --out holds a run of the same settings, go on with it");
   command->add_flag("--overwrite", flags->overwrite, "delete a run that --out holds");
-  command->add_option("--set", flags->overrides, "override a setting: --set gan.batch=16")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  command
+      ->add_option("--set", flags->overrides,
+                   "override settings: --set gan.batch=16 cem.episodes=2; may be repeated")
+      ->type_name("KEY=VALUE");
   flags->gripper = AddGripperFlag(command, "Options");
   command->add_option("--seed", flags->seed, "same as --set run.seed=");
   command->add_option("--threads", flags->threads, "same as --set run.threads=");
@@ -137,7 +152,10 @@ void AddTrainCommand(CLI::App* app) {
                     "train the networks of --from on in episode 0: same as run.fine_tune=true");
   command->add_flag("--from-scratch", flags->from_scratch, "train episode 0: no run.start")
       ->excludes(from);
-  command->callback([flags] { Train(*flags); });
+  command->callback([flags] {
+    TakeConfigFromSettings(flags.get());
+    Train(*flags);
+  });
 }
 
 }  // namespace antigrasp

@@ -38,6 +38,7 @@ torch::serialize::InputArchive Open(const fs::path& path) {
   try {
     archive.load_from(path.string());
   } catch (const std::exception&) {
+    RefuseOtherKind(path, FileKind::kZip, "a checkpoint", kExpected);
     throw InputError(IsZip(path) ? "truncated or damaged checkpoint" : "not a checkpoint",
                      path.string(), kExpected);
   }

@@ -7,6 +7,7 @@
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/file_kind.h"
 
 namespace antigrasp {
 namespace {
@@ -19,6 +20,11 @@ std::string_view Trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+std::string ReadTable(const std::filesystem::path& path) {
+  RefuseOtherKind(path, FileKind::kTable, "a table", "comma-separated text with a header row");
+  return ReadFile(path);
+}
+
 std::string Fields(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " field" : " fields");
 }
@@ -26,7 +32,7 @@ std::string Fields(std::size_t count) {
 }  // namespace
 
 CsvReader::CsvReader(const std::filesystem::path& path)
-    : CsvReader(path.string(), ReadFile(path)) {}
+    : CsvReader(path.string(), ReadTable(path)) {}
 
 CsvReader CsvReader::OfText(std::string text, std::string name) {
   return {std::move(name), std::move(text)};

@@ -10,6 +10,7 @@
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/file_kind.h"
 #include "antigrasp/core/format.h"
 #include "antigrasp/core/nearest.h"
 
@@ -154,6 +155,7 @@ void OptionTable::Add(std::string key, std::string* target, std::vector<std::str
 
 void OptionTable::ApplyFile(const std::string& path) {
   RequireFile(path, "a TOML configuration file");
+  RefuseOtherKind(path, FileKind::kUnknown, "a configuration", "a TOML configuration file");
   ApplyText(ReadFile(path), path);
 }
 

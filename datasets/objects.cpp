@@ -6,6 +6,7 @@
 #include <set>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/file_kind.h"
 #include "antigrasp/datasets/mesh_folder.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
@@ -102,6 +103,7 @@ void ObjectSource::Open(const std::string& path, std::vector<ObjectOrigin>* orig
     origins->push_back(
         {fs::path(path).filename().string(), fs::absolute(path).parent_path().string()});
   } else {
+    if (!IsHdf5(path)) RefuseOtherKind(path, FileKind::kMesh, "a mesh", Expected());
     ReadShapeSetInfo(path);  // says what keeps it from being an SDF file
     throw InputError("unknown kind of file", path, Expected());
   }

@@ -26,6 +26,7 @@ class Reader {
     RequireFile(path, kWholeFile);
     file_ = Hdf5File::Open(path);
     if (!file_) {
+      RefuseOtherKind(path, FileKind::kHdf5, "an SDF file", kWholeFile);
       Fail(IsTruncatedHdf5(path) ? "truncated HDF5 file"
            : IsHdf5(path)        ? "damaged HDF5 file"
                                  : "not an HDF5 file",

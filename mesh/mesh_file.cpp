@@ -6,6 +6,7 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/file_kind.h"
 #include "antigrasp/mesh/mesh_format.h"
 #include "antigrasp/mesh/mesh_readers.h"
 
@@ -86,8 +87,9 @@ std::filesystem::path FindMeshFile(const std::filesystem::path& folder, const st
   return folder / (name + ".stl");
 }
 
-TriangleMesh ReadMesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
-  RequireFile(path, Expected(kReadableFormats));
+namespace {
+
+TriangleMesh ReadByExtension(const std::filesystem::path& path, std::vector<std::string>* notes) {
   const MeshFormat format = RequireReadableFormat(path);
   std::error_code ignored;
   if (std::filesystem::file_size(path, ignored) > kLargestFile) {
@@ -96,6 +98,18 @@ TriangleMesh ReadMesh(const std::filesystem::path& path, std::vector<std::string
   const std::string bytes = ReadFile(path);
   if (bytes.empty()) throw InputError("empty file", path.string(), Expected(kReadableFormats));
   return ToTriangleMesh(ReadSoup(format, bytes, path.string()), path.string(), notes);
+}
+
+}  // namespace
+
+TriangleMesh ReadMesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
+  RequireFile(path, Expected(kReadableFormats));
+  try {
+    return ReadByExtension(path, notes);
+  } catch (const InputError&) {
+    RefuseOtherKind(path, FileKind::kMesh, "a mesh", Expected(kReadableFormats));
+    throw;
+  }
 }
 
 }  // namespace antigrasp

@@ -106,9 +106,9 @@ void ExpectNetworksAlone(const TempFolder& folder, const ShapeSet& exact) {
 void ExpectSettingsByRank(const TempFolder& folder) {
   const std::string dir = folder.path().string() + "/";
   const Outcome latent =
-      Antigrasp("train " + dir + "lean.toml --from " + dir + "small.pt --mode latent --seed 9 " +
-                "--threads 2 --set run.seed=3 --set cem.mode=gan --set cem.control=false " +
-                "--set cem.episodes=1 --set gan.batch=6 --out " + dir + "latent");
+      Antigrasp("train --set run.seed=3 cem.mode=gan " + dir + "lean.toml --from " + dir +
+                "small.pt --mode latent --seed 9 --threads 2 --set cem.control=false " +
+                "cem.episodes=1 --set gan.batch=6 --out " + dir + "latent");
   EXPECT_EQ(latent.code, 0) << latent.text;
   const std::string config = ReadFile(folder / "latent/config.toml");
   for (const std::string& line :
