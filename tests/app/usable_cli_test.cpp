@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -22,10 +23,18 @@ using cli::Outcome;
 using shapes::CsvRows;
 using shapes::TempFolder;
 
-const std::map<std::string, std::string> kRefused{{"drilled.obj", "overlapping pieces: 2"},
-                                                  {"open.obj", "open: 4 boundary edges"},
-                                                  {"spike.obj", "self-intersecting"},
-                                                  {"two.obj", "disjoint pieces: 2"}};
+// A mesh of every status that a file can have after repair.
+const std::map<std::string, std::string> kRefused{
+    {"corner.obj", "non-manifold: parts touch in a single vertex"},
+    {"drilled.obj", "overlapping pieces: 2"},
+    {"edge.obj", "non-manifold: 1 edge with more than two faces"},
+    {"empty.obj", "empty: no faces"},
+    {"flat.obj", "inside-out: volume not positive"},
+    {"one_sided.obj", "not orientable: one-sided surface"},
+    {"open.obj", "open: 4 boundary edges"},
+    {"sliver.obj", "degenerate: 1 face without area"},
+    {"spike.obj", "self-intersecting"},
+    {"two.obj", "disjoint pieces: 2"}};
 
 void FillFolder(const fs::path& folder) {
   fs::create_directory(folder);
@@ -41,6 +50,19 @@ void FillFolder(const fs::path& folder) {
   spike.vertices[0] *= -3.0;
   WriteMesh(folder / "spike.obj", spike);
   WriteMesh(folder / "two.obj", shapes::Joined(cube, Transformed(cube, 1.0, {5, 0, 0})));
+  WriteMesh(folder / "edge.obj", shapes::Joined(cube, Transformed(cube, 1.0, {1, 1, 0})));
+  WriteMesh(folder / "corner.obj", shapes::Joined(cube, Transformed(cube, 1.0, {1, 1, 1})));
+  TriangleMesh tetrahedron = shapes::Tetrahedron();
+  tetrahedron.vertices[3] = {1, 1, 0};  // four corners in a plane
+  WriteMesh(folder / "flat.obj", tetrahedron);
+  tetrahedron.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 1}};  // three in a line
+  WriteMesh(folder / "sliver.obj", tetrahedron);
+  // The projective plane: half an icosahedron whose opposite corners are one.
+  std::ofstream(folder / "one_sided.obj")
+      << "v 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 0.3 0\nv 0 -1 0.2\nv 0.5 0.5 -1\n"
+         "f 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 6\nf 1 6 2\n"
+         "f 2 3 5\nf 3 4 6\nf 4 5 2\nf 5 6 3\nf 6 2 4\n";
+  std::ofstream(folder / "empty.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\nf 3 3 1\n";
 }
 
 TEST(UsableCli, EveryCommandTakesTheSameObjectsAndGivesTheSameReasons) {
@@ -66,6 +88,13 @@ TEST(UsableCli, EveryCommandTakesTheSameObjectsAndGivesTheSameReasons) {
       Antigrasp("trial " + in +
                 " --noise none --series 1 --grasps-per-series 1 --executions 1 --num-draws 1");
   const Outcome poses = Antigrasp("poses " + in);
+  const Outcome compared = Antigrasp("compare " + in + " " + in + " --count 2");
+  ASSERT_EQ(compared.code, 0) << compared.text;
+  // The page is left out of builds without npm.
+  const bool has_page = Antigrasp("help report").code == 0;
+  const Outcome report = Antigrasp("report " + in + " --out " + dir + "page.html" + quick);
+  ASSERT_TRUE(report.code == 0 || !has_page) << report.text;
+  const std::string page = has_page ? ReadFile(folder / "page.html") : "";
   const std::string doc = ReadFile(fs::path(ANTIGRASP_CONFIGS) / "../docs/repair.md");
   for (const auto& [object, why] : kRefused) {
     EXPECT_EQ(evaluated[object], why);
@@ -73,7 +102,11 @@ TEST(UsableCli, EveryCommandTakesTheSameObjectsAndGivesTheSameReasons) {
     EXPECT_EQ(imported[object], "refused " + why);
     EXPECT_NE(exported.text.find(object + ": " + why), std::string::npos) << exported.text;
     EXPECT_NE(trial.text.find(object + ": left out: " + why), std::string::npos) << trial.text;
-    EXPECT_TRUE(object == "open.obj" || poses.text.find(object + ": " + why) != std::string::npos)
+    EXPECT_NE(compared.text.find(", 1 " + why), std::string::npos) << compared.text;
+    EXPECT_TRUE(!has_page || page.find('"' + why + '"') != std::string::npos) << why;
+    EXPECT_TRUE(poses.text.find(object + ": " + why) != std::string::npos ||
+                poses.text.find(object + ": no stable pose: " + why) != std::string::npos)
+        << object << "\n"
         << poses.text;
     EXPECT_NE(doc.find("| `" + why.substr(0, why.find(':'))), std::string::npos) << why;
   }
