@@ -26,6 +26,7 @@ struct CompareFlags {
 // The usable objects of an input.
 struct LoadedSet {
   std::vector<TriangleMesh> meshes;
+  std::vector<std::uint64_t> streams;
   int left_out = 0;
 };
 
@@ -38,6 +39,8 @@ LoadedSet Load(const std::string& input, const std::string& what, const CompareF
   for (InputObject& object : objects) {
     statuses.push_back(object.status);
     if (object.ok() && SurfaceArea(object.mesh) > 0.0) {
+      // The whole name: points of two shapes of one set are never drawn alike.
+      set.streams.push_back(HashOf(FileNameOf(object.name)));
       set.meshes.push_back(flags.units == LengthUnit::kM
                                ? std::move(object.mesh)
                                : Transformed(object.mesh, MetresPer(flags.units), {0.0, 0.0, 0.0}));
@@ -49,17 +52,23 @@ LoadedSet Load(const std::string& input, const std::string& what, const CompareF
   return set;
 }
 
-// `count` of the meshes at random, in their order: the first ones of a folder may be of one kind.
-void KeepAtRandom(std::size_t count, std::uint64_t seed, std::uint64_t set,
-                  std::vector<TriangleMesh>* meshes) {
-  RngStream rng(seed, "compared shapes", set);
-  std::vector<TriangleMesh> kept;
-  for (std::size_t i = 0; i < meshes->size() && kept.size() < count; ++i) {
-    if (rng.Below(meshes->size() - i) < count - kept.size()) {
-      kept.push_back(std::move((*meshes)[i]));
-    }
+// `count` of the shapes at random, in their order: the first ones of a folder may be of one kind.
+// Each draws a lot by its name, and the lowest stay, in whatever order they come.
+void KeepAtRandom(std::size_t count, std::uint64_t seed, std::uint64_t number, LoadedSet* set) {
+  std::vector<std::pair<std::uint64_t, std::size_t>> lots;
+  for (std::size_t i = 0; i < set->streams.size(); ++i) {
+    lots.emplace_back(RngStream(seed, "compared shapes", number, set->streams[i]).NextU64(), i);
   }
-  *meshes = std::move(kept);
+  std::sort(lots.begin(), lots.end());
+  lots.resize(count);
+  std::sort(lots.begin(), lots.end(),
+            [](const auto& a, const auto& b) { return a.second < b.second; });
+  LoadedSet kept{{}, {}, set->left_out};
+  for (const auto& [lot, i] : lots) {
+    kept.meshes.push_back(std::move(set->meshes[i]));
+    kept.streams.push_back(set->streams[i]);
+  }
+  *set = std::move(kept);
 }
 
 void Warn(const SurfaceComparison& found) {
@@ -96,12 +105,13 @@ void Compare(const CompareFlags& flags) {
   if (!flags.training.empty()) require(training, 1, flags.training);
   const std::size_t count = std::min(
       {static_cast<std::size_t>(flags.count), samples.meshes.size(), reference.meshes.size()});
-  KeepAtRandom(count, flags.options.seed, 0, &samples.meshes);
-  KeepAtRandom(count, flags.options.seed, 1, &reference.meshes);
+  KeepAtRandom(count, flags.options.seed, 0, &samples);
+  KeepAtRandom(count, flags.options.seed, 1, &reference);
   ConsoleObserver console;
   const SurfaceComparison found =
       CompareSurfaces(samples.meshes, reference.meshes, training.meshes, flags.options,
-                      [&console](const std::string& phase) { return console.Phase(phase); });
+                      [&console](const std::string& phase) { return console.Phase(phase); },
+                      {samples.streams, reference.streams, training.streams});
   const ComparisonTable table(found, count, samples.left_out, reference.left_out);
   if (!flags.out.empty()) WriteFileAtomic(flags.out, table.Csv());
   std::fputs(table.Text().c_str(), stdout);

@@ -8,6 +8,8 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
+#include "antigrasp/app/hardest.h"
+#include "antigrasp/app/score_notes.h"
 #include "antigrasp/app/scored_objects.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
@@ -15,6 +17,7 @@
 #include "antigrasp/core/statistics.h"
 #include "antigrasp/quality/grasp_table.h"
 #include "antigrasp/quality/object_size.h"
+#include "antigrasp/quality/sampling_effort.h"
 
 namespace antigrasp {
 namespace {
@@ -25,6 +28,7 @@ struct EvaluateFlags {
   std::string out;
   std::string grasps;
   GraspFrame frame = GraspFrame::kMetres;
+  int hardest = 0;  // 0: all objects
   std::uint64_t seed = 1;
   int threads = 0;
 };
@@ -33,11 +37,14 @@ struct EvaluateFlags {
 struct Scores {
   explicit Scores(const MetricOptions& metric) : sizes(metric) {}
   ScoreTable table;
+  std::vector<ScoreRow> rows;             // in place of the table, to choose from
   std::string first;                      // the first one and its status
   std::vector<double> values, originals;  // graspabilities, NaN where there is none
   std::vector<std::string> notes;
   CandidateCount candidates;
   UnlikelySizes sizes;
+  std::string interval;                // of the only score, over its grasps
+  std::optional<PairDifference> pair;  // of the only pair
 };
 
 std::string MetricPath(const EvaluateFlags& flags) {
@@ -70,6 +77,10 @@ void PrintSummary(const Scores& scores, const MetricOptions& metric) {
 
 // Of the pairs that both have a score.
 void PrintPairedDifference(const Scores& scores) {
+  if (scores.pair) {
+    std::fprintf(stderr, "%s\n", PairText(*scores.pair, scores.originals.front()).c_str());
+    return;
+  }
   const std::vector<double>&changed = scores.values, &original = scores.originals;
   std::vector<double> difference, of_pairs;
   for (std::size_t i = 0; i < changed.size(); ++i) {
@@ -91,12 +102,33 @@ void PrintPairedDifference(const Scores& scores) {
   std::fprintf(stderr, "%s, %d pairs\n", baseline > 0.0 ? "" : ", the baseline is 0", mean.count);
 }
 
+// How many grasps it took, and what the scores mean beside known ones.
+void PrintNotes(const Scores& scores, const MetricOptions& metric, bool effort_given) {
+  const auto objects = std::ssize(scores.values);
+  if (!scores.interval.empty()) std::fprintf(stderr, "%s\n", scores.interval.c_str());
+  if (!effort_given) std::fprintf(stderr, "%s\n", EffortText(objects, metric).c_str());
+  const MeanInterval mean = MeanWithInterval(scores.values);
+  std::fprintf(stderr, "%s\n", KnownText(mean.mean, mean.count > 1, metric).c_str());
+}
+
 // InputError, before anything is written, when no object has a score.
 void RequireAScore(const EvaluateFlags& flags, const Scores& scores) {
   for (const double value : scores.values) {
     if (!std::isnan(value)) return;
   }
   throw InputError("no object scored; " + scores.first, flags.inputs.front(), "a closed solid");
+}
+
+// Of an only object: what its grasps say about how sure its numbers are.
+void LookAtGrasps(const ScoredObject& scored, const std::optional<ScoredObject>& original,
+                  const MetricOptions& metric, Scores* scores) {
+  if (!std::isfinite(scored.Value())) return;
+  scores->interval = IntervalText(scored.score);
+  if (!original || !std::isfinite(original->Value())) return;
+  scores->pair = DifferenceOf(scored.score, original->score, metric.percentile);
+  if (FileNameOf(scored.name) == FileNameOf(original->name)) return;
+  scores->notes.push_back(scored.name + " and " + original->name +
+                          " are taken as a pair, though their names differ: there is one of each");
 }
 
 // Object by object, each with its original's graspability where there are originals.
@@ -116,19 +148,27 @@ Scores ScoreAllOf(const ObjectSource& objects, const EvaluateFlags& flags,
   StreamInOrder(
       objects.size(), flags.threads,
       [&](std::int64_t i) {
-        std::optional<double> original;
+        const std::uint64_t stream = objects.stream(i);
+        std::optional<ScoredObject> original;
         if (originals) {
           const std::int64_t place = original_of[static_cast<std::size_t>(i)];
-          original = ScoreObject(originals->Load(place), i, metric, flags.seed).Value();
+          original = ScoreObject(originals->Load(place), stream, metric, flags.seed);
         }
-        return std::pair(ScoreObject(objects.Load(i), i, metric, flags.seed), original);
+        return std::pair(ScoreObject(objects.Load(i), stream, metric, flags.seed), original);
       },
-      [&](std::int64_t, const std::pair<ScoredObject, std::optional<double>>& item) {
+      [&](std::int64_t, const std::pair<ScoredObject, std::optional<ScoredObject>>& item) {
         const auto& [scored, original] = item;
         if (scores.first.empty()) scores.first = scored.name + ": " + scored.status;
-        scores.table.Add(RowOf(scored, egad, original ? &*original : nullptr));
+        const double baseline = original ? original->Value() : 0.0;
+        const ScoreRow row = RowOf(scored, egad, original ? &baseline : nullptr);
+        if (flags.hardest > 0) {
+          scores.rows.push_back(row);
+        } else {
+          scores.table.Add(row);
+        }
         scores.values.push_back(scored.Value());
-        if (original) scores.originals.push_back(*original);
+        if (original) scores.originals.push_back(baseline);
+        if (objects.size() == 1) LookAtGrasps(scored, original, metric, &scores);
         if (!scored.note.empty()) scores.notes.push_back(scored.name + ": " + scored.note);
         scores.candidates.Add(scored.score);
         scores.sizes.Add(scored.name, scored.extent, &scored.score);
@@ -137,6 +177,8 @@ Scores ScoreAllOf(const ObjectSource& objects, const EvaluateFlags& flags,
         grasps_file->Append(grasps.TakeText());
       },
       console.Phase("scoring"));
+  const std::string shared = SharedDrawsText(objects);
+  if (!shared.empty()) scores.notes.push_back(shared);
   for (const std::string& note : scores.notes) spdlog::warn("{}", note);
   for (const std::string& size : scores.sizes.Texts()) spdlog::warn("{}", size);
   RequireAScore(flags, scores);
@@ -145,7 +187,7 @@ Scores ScoreAllOf(const ObjectSource& objects, const EvaluateFlags& flags,
 }
 
 void Evaluate(const EvaluateFlags& flags, const MetricFlags& metric_flags) {
-  const MetricOptions metric = metric_flags.Resolve();
+  MetricOptions metric = metric_flags.Resolve();
   for (const std::string& out : {flags.out, flags.grasps}) {
     if (!out.empty()) const AtomicFile probe(out);  // refuses an unwritable target before the work
   }
@@ -155,9 +197,22 @@ void Evaluate(const EvaluateFlags& flags, const MetricFlags& metric_flags) {
   if (!flags.baseline.empty()) {
     ObjectSource(flags.baseline).RequireNotRead({flags.out, MetricPath(flags), flags.grasps});
   }
+  metric_flags.RaiseEffort(objects.size(), &metric);
   const Scores scores = ScoreAllOf(objects, flags, metric, metric_flags.preset() == "egad");
-  WriteScores(flags, metric, scores.table.Csv());
+  std::vector<HardestObject> hardest;
+  if (flags.hardest > 0) {
+    ConsoleObserver console;
+    hardest = FindHardest(objects, scores.rows, flags.hardest, metric, flags.seed, flags.threads,
+                          &console);
+  }
+  ScoreTable of_hardest;
+  for (const HardestObject& found : hardest) of_hardest.Add(found.row);
+  WriteScores(flags, metric, (hardest.empty() ? scores.table : of_hardest).Csv());
   PrintSummary(scores, metric);
+  PrintNotes(scores, metric, metric_flags.effort_given());
+  if (!hardest.empty()) {
+    std::fprintf(stderr, "%s\n", HardestText(hardest, objects.size()).c_str());
+  }
   if (!flags.baseline.empty()) PrintPairedDifference(scores);
 }
 
@@ -179,6 +234,10 @@ void AddEvaluateCommand(CLI::App* app) {
   command->add_option("--baseline", flags->baseline,
                       "the same objects before a change (meshes, folders, SDF files; paired by "
                       "name): prints the paired difference under equal random numbers");
+  AddHardestFlag(command, &flags->hardest,
+                 "write only the N objects with the lowest graspability, scored again with fresh "
+                 "draws: the lowest of many noisy scores is too low")
+      ->excludes("--baseline", "--grasps");
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
   command->add_option("--threads", flags->threads, "threads; 0 = all; scores do not depend on it")
       ->check(CLI::Range(0, 1024))

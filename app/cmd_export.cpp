@@ -3,10 +3,13 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <numeric>
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
+#include "antigrasp/app/hardest.h"
+#include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/ordered_stream.h"
 #include "antigrasp/datasets/objects.h"
@@ -25,6 +28,10 @@ constexpr auto ChoicesOf(ExportPose) {
       {{ExportPose::kAsIs, "as-is"}, {ExportPose::kPrint, "print"}});
 }
 
+// Of --hardest.
+constexpr const char* kScores = "hardest.csv";
+constexpr const char* kConstants = "hardest.csv.metric.toml";
+
 struct ExportFlags {
   std::vector<std::string> inputs;
   std::string out;
@@ -34,6 +41,8 @@ struct ExportFlags {
   bool true_size = false;
   LengthUnit units = LengthUnit::kM;
   bool overwrite = false;
+  int hardest = 0;  // 0: all objects
+  std::uint64_t seed = 1;
   int threads = 0;
 
   double SizeOf(const TriangleMesh& mesh) const {
@@ -65,10 +74,41 @@ Placed PlaceForPrint(InputObject object, const ExportFlags& flags, const PrintOp
   return placed;
 }
 
-void Export(const ExportFlags& flags, const PrintOptions& options) {
+// The hardest objects, and their scores into the folder.
+std::vector<std::int64_t> ChooseHardest(const ObjectSource& objects, const ExportFlags& flags,
+                                        const MetricOptions& metric,
+                                        const std::filesystem::path& folder) {
+  ConsoleObserver console;
+  const std::vector<HardestObject> hardest =
+      FindHardest(objects, ScoreRowsOf(objects, metric, flags.seed, flags.threads, &console),
+                  flags.hardest, metric, flags.seed, flags.threads, &console);
+  if (hardest.empty()) throw InputError("no object scored", flags.inputs.front(), "a closed solid");
+  std::vector<std::int64_t> places;
+  ScoreTable table;
+  for (const HardestObject& found : hardest) {
+    places.push_back(found.place);
+    table.Add(found.row);
+  }
+  WriteFileAtomic(folder / kScores, table.Csv());
+  WriteFileAtomic(folder / kConstants, MetricToml(metric, flags.seed));
+  std::fprintf(stderr, "%s\n", HardestText(hardest, objects.size()).c_str());
+  return places;
+}
+
+void Export(const ExportFlags& flags, const PrintOptions& options,
+            const MetricFlags& metric_flags) {
+  MetricOptions metric = metric_flags.Resolve();
+  if (flags.true_size) {
+    metric.object_min_extent = 0.0;
+    metric.units = flags.units;
+  }
   const ObjectSource objects(flags.inputs);
-  ResultFolder results(flags.out, {"print.csv", {}, {"NAME." + flags.format}}, objects,
-                       flags.overwrite);
+  metric_flags.RaiseEffort(objects.size(), &metric);
+  ResultFolder results(flags.out, {"print.csv", {kScores, kConstants}, {"NAME." + flags.format}},
+                       objects, flags.overwrite);
+  std::vector<std::int64_t> places(static_cast<std::size_t>(objects.size()));
+  std::iota(places.begin(), places.end(), 0);
+  if (flags.hardest > 0) places = ChooseHardest(objects, flags, metric, results.path());
   PrintTable solids(options);
   std::vector<std::string> refusals;
   MetricOptions as_it_is;
@@ -77,8 +117,10 @@ void Export(const ExportFlags& flags, const PrintOptions& options) {
   UnlikelySizes sizes(as_it_is);
   ConsoleObserver console;
   StreamInOrder(
-      objects.size(), flags.threads,
-      [&](std::int64_t i) { return PlaceForPrint(objects.Load(i), flags, options); },
+      std::ssize(places), flags.threads,
+      [&](std::int64_t i) {
+        return PlaceForPrint(objects.Load(places[static_cast<std::size_t>(i)]), flags, options);
+      },
       [&](std::int64_t, Placed item) {
         if (!item.note.empty()) spdlog::warn("{}: {}", item.printed.name, item.note);
         if (!item.refusal.empty()) {
@@ -121,6 +163,10 @@ void AddExportCommand(CLI::App* app) {
   command->add_option("--size-mm", flags->size_mm, "largest extent in the object's own frame, mm")
       ->check(NumberIn(0.001, 1e5))
       ->capture_default_str();
+  const auto metric_flags = std::make_shared<MetricFlags>(command);
+  for (const char* name : {"--true-size", "--units"}) {  // both say how it is printed, too
+    command->remove_option(command->get_option(name));
+  }
   CLI::Option* const true_size =
       command->add_flag("--true-size", flags->true_size, "as large as it is, not --size-mm");
   true_size->excludes("--size-mm");
@@ -129,6 +175,13 @@ void AddExportCommand(CLI::App* app) {
   AddChoice(command, "--pose", &flags->pose,
             "as-is: the object's own axes, so that grasps and poses go with the file; print: "
             "turned into the pose suggested for printing");
+  CLI::Option* const hardest = AddHardestFlag(
+      command, &flags->hardest,
+      "only the N objects with the lowest graspability, scored again with fresh draws: both scores "
+      "go to hardest.csv in the folder");
+  command->add_option("--seed", flags->seed, "random seed of the scores")
+      ->capture_default_str()
+      ->needs(hardest);
   command->add_option("--threads", flags->threads, "threads; 0 = all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
@@ -136,12 +189,15 @@ void AddExportCommand(CLI::App* app) {
   OptionTable table;
   Bind(&table, &defaults);
   const OptionFlags print_flags(command, table, "Print check");
-  command->callback([flags, print_flags] {
+  command->callback([flags, print_flags, metric_flags] {
+    if (flags->hardest == 0 && metric_flags->given()) {
+      throw InputError("constants of the metric", "command line", "--hardest N beside them");
+    }
     PrintOptions options;
     OptionTable own;
     Bind(&own, &options);
     print_flags.Apply(&own);
-    Export(*flags, options);
+    Export(*flags, options, *metric_flags);
   });
 }
 

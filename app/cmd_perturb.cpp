@@ -68,7 +68,7 @@ std::vector<PerturbedObject> PerturbAll(std::vector<InputObject> inputs,
     std::int64_t at = 0;
     try {
       if (item.object.ok()) {
-        item.scored = PerturbAndScore(item.object.mesh, settings, static_cast<std::uint64_t>(i),
+        item.scored = PerturbAndScore(item.object.mesh, settings, item.object.stream,
                                       [&](std::int64_t done, std::int64_t total) {
                                         if (InterruptRequested()) throw Interrupted();
                                         // The scores before and after take the rest.

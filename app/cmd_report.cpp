@@ -106,6 +106,7 @@ void AddReportCommand(CLI::App* app) {
   const auto metric = std::make_shared<MetricFlags>(command);
   command->callback([flags, metric, seed] {
     flags->settings.metric = metric->Resolve();
+    flags->settings.raise_effort = !metric->effort_given();
     WriteReport(*flags, metric->given() || seed->count() > 0);
   });
 }

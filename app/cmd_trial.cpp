@@ -54,7 +54,11 @@ std::vector<TrialReading> RunReadings(const TrialFlags& flags,
                                       const std::vector<InputObject>& objects, MetricOptions metric,
                                       const TrialOptions& options) {
   std::vector<TriangleMesh> meshes;
-  for (const InputObject& object : objects) meshes.push_back(object.mesh);
+  std::vector<std::uint64_t> streams;
+  for (const InputObject& object : objects) {
+    meshes.push_back(object.mesh);
+    streams.push_back(object.stream);
+  }
   ConsoleObserver console;
   std::vector<TrialReading> all;
   const auto chosen = FindChoice<FrictionReading>(flags.reading);
@@ -63,7 +67,7 @@ std::vector<TrialReading> RunReadings(const TrialFlags& flags,
     metric.friction = FrictionCoefficient(flags.friction_angle, reading);
     all.push_back({reading, metric.friction,
                    RunTrials(meshes, metric, options, flags.seed, flags.threads,
-                             console.Phase("trials, " + std::string(name)))});
+                             console.Phase("trials, " + std::string(name)), streams)});
   }
   return all;
 }

@@ -8,6 +8,7 @@
 #include "antigrasp/core/format.h"
 #include "antigrasp/quality/named_gripper.h"
 #include "antigrasp/quality/object_size.h"
+#include "antigrasp/quality/sampling_effort.h"
 
 namespace antigrasp {
 namespace {
@@ -114,6 +115,16 @@ MetricFlags::MetricFlags(CLI::App* command)
 bool MetricFlags::given() const {
   return options_.given() || command_->count("--preset") > 0 || command_->count("--noise") > 0 ||
          command_->count("--gripper") > 0 || *true_size_;
+}
+
+bool MetricFlags::effort_given() const {
+  return command_->count("--preset") + command_->count("--num-grasps") +
+             command_->count("--max-attempts") >
+         0;
+}
+
+void MetricFlags::RaiseEffort(std::int64_t objects, MetricOptions* options) const {
+  if (!effort_given()) RaiseEffortForFew(objects, options);
 }
 
 MetricOptions MetricFlags::Resolve() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -34,6 +35,9 @@ class MetricFlags {
   // Both after parsing. InputError for parts that do not fit each other; warns of lengths that can
   // hardly be in metres.
   MetricOptions Resolve() const;
+  // More grasps for few objects (quality/sampling_effort.h), unless effort_given().
+  void RaiseEffort(std::int64_t objects, MetricOptions* options) const;
+  bool effort_given() const;  // --preset, --num-grasps or --max-attempts
   const std::string& preset() const { return *preset_; }
   bool given() const;  // whether any of them was on the command line
 

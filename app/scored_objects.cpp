@@ -14,14 +14,13 @@ double ScoredObject::Value() const {
              : score.value;
 }
 
-ScoredObject ScoreObject(const InputObject& object, std::int64_t stream,
+ScoredObject ScoreObject(const InputObject& object, std::uint64_t stream,
                          const MetricOptions& metric, std::uint64_t seed) {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   ScoredObject scored{object.name, object.status, object.note, none, none, {}};
   scored.score.status = GraspabilityStatus::kNotEvaluable;
   if (!object.ok()) return scored;
-  scored.score =
-      EvaluateGraspability(object.mesh, metric, seed, static_cast<std::uint64_t>(stream));
+  scored.score = EvaluateGraspability(object.mesh, metric, seed, stream);
   scored.status = Name(scored.score.status);
   scored.center_of_mass = CenterOfMass(object.mesh);
   scored.extent = Bounds(object.mesh).Extent();

@@ -18,13 +18,12 @@ struct ScoredObject {
   double Value() const;  // the graspability, NaN when there is none
 };
 
-// Draws from the stream of number `stream`: equal numbers, equal random numbers.
-ScoredObject ScoreObject(const InputObject& object, std::int64_t stream,
+// Draws from the stream of number `stream`: the object's own, or for a pair that of one of the two.
+ScoredObject ScoreObject(const InputObject& object, std::uint64_t stream,
                          const MetricOptions& metric, std::uint64_t seed);
 
-// Which original every object has: alone they pair up as they are, else by name without the
-// extension. InputError for an object without an
-// original.
+// Which original every object has: alone they pair up whatever they are called, else by name
+// without the extension. InputError for an object without an original.
 std::vector<std::int64_t> PairWithOriginals(const ObjectSource& objects,
                                             const ObjectSource& originals);
 

@@ -17,14 +17,13 @@ std::uint64_t Mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// FNV-1a over the domain's bytes.
-std::uint64_t HashText(std::string_view text) {
+}  // namespace
+
+std::uint64_t HashOf(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
   return hash;
 }
-
-}  // namespace
 
 std::array<std::uint32_t, 4> Philox(std::array<std::uint32_t, 4> counter,
                                     std::array<std::uint32_t, 2> key) {
@@ -43,7 +42,7 @@ std::array<std::uint32_t, 4> Philox(std::array<std::uint32_t, 4> counter,
 
 RngStream::RngStream(std::uint64_t seed, std::string_view domain, std::uint64_t a,
                      std::uint64_t b) {
-  const std::uint64_t key = Mix(Mix(seed) ^ HashText(domain));
+  const std::uint64_t key = Mix(Mix(seed) ^ HashOf(domain));
   const std::uint64_t item = Mix(Mix(a) + b) ^ Mix(key + a);
   key_ = {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)};
   // The low half of the counter counts blocks, the high half names the work item.

@@ -11,6 +11,9 @@ namespace antigrasp {
 std::array<std::uint32_t, 4> Philox(std::array<std::uint32_t, 4> counter,
                                     std::array<std::uint32_t, 2> key);
 
+// FNV-1a of 64 bits over the bytes: the same on every machine. Saved results depend on it.
+std::uint64_t HashOf(std::string_view text);
+
 // The random stream of one work item. Two streams with different (seed, domain, a, b) are
 // independent; the same four give the same numbers on every machine and thread.
 //   RngStream rng(seed, "grasp", episode, object);

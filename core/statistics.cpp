@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "antigrasp/core/check.h"
 
@@ -35,6 +36,61 @@ double BinomialTail(const std::vector<double>& log_factorials, std::size_t at_le
   return sum;
 }
 
+struct Mass {
+  double value, probability;
+};
+
+// What percentile a resample of the values has: one of them, each with a probability.
+class ResampledPercentile {
+ public:
+  ResampledPercentile(std::vector<double> values, double percent)
+      : values_(std::move(values)),
+        at_least_(PercentileRank(values_.size(), percent) + 1),
+        log_factorials_(LogFactorials(values_.size())) {
+    std::sort(values_.begin(), values_.end());
+  }
+
+  const std::vector<double>& values() const { return values_; }
+
+  // Of the smallest value that it does not exceed with this probability.
+  std::size_t Place(double probability) const {
+    std::size_t low = 0, high = values_.size() - 1;
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      if (AtMost(middle) >= probability) {
+        high = middle;
+      } else {
+        low = middle + 1;
+      }
+    }
+    return low;
+  }
+
+  // All values but those of no account, rising.
+  std::vector<Mass> Masses() const {
+    constexpr double kNoAccount = 1e-7;
+    std::vector<Mass> masses;
+    double below = 0.0;
+    const std::size_t last = Place(1.0 - kNoAccount);
+    for (std::size_t i = Place(kNoAccount); i <= last; ++i) {
+      const double at_most = AtMost(i);
+      masses.push_back({values_[i], at_most - below});
+      below = at_most;
+    }
+    return masses;
+  }
+
+ private:
+  double AtMost(std::size_t place) const {
+    return BinomialTail(log_factorials_, at_least_,
+                        static_cast<double>(place + 1) / static_cast<double>(values_.size()));
+  }
+
+  std::vector<double> values_;
+  std::size_t at_least_;
+  std::vector<double> log_factorials_;
+};
+
 }  // namespace
 
 std::string MeanText(const MeanInterval& mean, int decimals) {
@@ -55,24 +111,31 @@ double DiscretePercentile(std::vector<double> values, double percent) {
 
 Interval BootstrapPercentile(std::vector<double> values, double percent) {
   if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const std::size_t at_least = PercentileRank(values.size(), percent) + 1;
-  const std::vector<double> log_factorials = LogFactorials(values.size());
-  // The smallest value that the resampled percentile does not exceed with this probability.
-  const auto quantile = [&](double probability) {
-    std::size_t low = 0, high = values.size() - 1;
-    while (low < high) {
-      const std::size_t middle = (low + high) / 2;
-      const double p = static_cast<double>(middle + 1) / static_cast<double>(values.size());
-      if (BinomialTail(log_factorials, at_least, p) >= probability) {
-        high = middle;
-      } else {
-        low = middle + 1;
-      }
+  const ResampledPercentile resampled(std::move(values), percent);
+  return {resampled.values()[resampled.Place(0.025)], resampled.values()[resampled.Place(0.975)]};
+}
+
+Interval BootstrapPercentileDifference(std::vector<double> a, std::vector<double> b,
+                                       double percent) {
+  if (a.empty() || b.empty()) return {};
+  const std::vector<Mass> of_a = ResampledPercentile(std::move(a), percent).Masses(),
+                          of_b = ResampledPercentile(std::move(b), percent).Masses();
+  std::vector<Mass> differences;
+  for (const Mass& first : of_a) {
+    for (const Mass& second : of_b) {
+      differences.push_back({first.value - second.value, first.probability * second.probability});
     }
-    return values[low];
-  };
-  return {quantile(0.025), quantile(0.975)};
+  }
+  std::sort(differences.begin(), differences.end(),
+            [](const Mass& x, const Mass& y) { return x.value < y.value; });
+  double below = 0.0;
+  Interval interval{differences.back().value, differences.back().value};
+  for (const Mass& difference : differences) {
+    if (below < 0.025) interval.low = difference.value;
+    if (below < 0.975) interval.high = difference.value;
+    below += difference.probability;
+  }
+  return interval;
 }
 
 MeanInterval MeanWithInterval(const std::vector<double>& values) {

@@ -32,4 +32,9 @@ struct Interval {
 // L-estimator"). n log n; no random numbers.
 Interval BootstrapPercentile(std::vector<double> values, double percent);
 
+// The same of DiscretePercentile(a) - DiscretePercentile(b), both resampled apart. Draws that both
+// samples share make the true interval narrower than this one. {0, 0} of an empty sample.
+Interval BootstrapPercentileDifference(std::vector<double> a, std::vector<double> b,
+                                       double percent);
+
 }  // namespace antigrasp

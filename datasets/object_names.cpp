@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "antigrasp/core/rng.h"
 #include "antigrasp/mesh/mesh_file.h"
 
 namespace antigrasp {
@@ -93,6 +94,16 @@ std::string FileNameOf(const std::string& object_name) {
   std::string name = StemAndExtension(object_name).first;
   std::replace(name.begin(), name.end(), '/', '_');
   return name;
+}
+
+std::uint64_t StreamOf(const std::string& object_name) {
+  const std::size_t slash = object_name.rfind('/');
+  const std::string last = slash == std::string::npos ? object_name : object_name.substr(slash + 1);
+  const std::string stem = StemAndExtension(last).first;
+  const std::size_t bar = stem.rfind('_');  // "mug_stl", as DistinctNames writes it out
+  const bool written_out = bar != std::string::npos && bar > 0 &&
+                           IsMeshFile(stem.substr(0, bar) + "." + stem.substr(bar + 1));
+  return HashOf(written_out ? stem.substr(0, bar) : stem);
 }
 
 std::vector<std::string> DistinctNames(const std::vector<ObjectOrigin>& objects) {

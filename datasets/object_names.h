@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@ struct ObjectOrigin {
 
 // A file name for an object's name: path separators become underscores, an extension is dropped.
 std::string FileNameOf(const std::string& object_name);
+
+// The number of an object's random stream, the same alone, in any folder and beside any others:
+// HashOf the last part of its name without the extension, be that written out or not. "mug.stl",
+// "a/mug.obj" and "mug_stl" share one, as an object before and after a change does.
+std::uint64_t StreamOf(const std::string& object_name);
 
 // One name an object, no two with the same FileNameOf, so that neither rows of a table nor files
 // are mixed up. An object whose name is its own keeps it. Else the extension is written out

@@ -76,6 +76,7 @@ struct ObjectSource::Input {
 struct ObjectSource::Source {
   std::string name;
   std::size_t input;
+  std::uint64_t stream;
   int grid;          // of an SDF file
   std::string file;  // of a mesh
 };
@@ -85,7 +86,7 @@ void ObjectSource::Open(const std::string& path, std::vector<ObjectOrigin>* orig
   inputs_.push_back({path, fs::is_directory(path), nullptr});
   if (inputs_.back().is_folder) {
     for (const fs::path& file : MeshFilesIn(path)) {
-      sources_.push_back({"", number, 0, file.string()});
+      sources_.push_back({"", number, 0, 0, file.string()});
       origins->push_back({file.lexically_relative(path).string(), path});
     }
   } else if (!fs::exists(path)) {
@@ -95,11 +96,11 @@ void ObjectSource::Open(const std::string& path, std::vector<ObjectOrigin>* orig
     const std::string folder = fs::path(path).replace_extension().string();
     int grid = 0;
     for (std::string& name : inputs_.back().set->Names()) {
-      sources_.push_back({"", number, grid++, ""});
+      sources_.push_back({"", number, 0, grid++, ""});
       origins->push_back({std::move(name), folder});
     }
   } else if (IsMeshFile(path)) {
-    sources_.push_back({"", number, 0, path});
+    sources_.push_back({"", number, 0, 0, path});
     origins->push_back(
         {fs::path(path).filename().string(), fs::absolute(path).parent_path().string()});
   } else {
@@ -114,7 +115,10 @@ ObjectSource::ObjectSource(const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs) Open(input, &origins);
   if (sources_.empty()) throw InputError("no object", inputs.front(), Expected());
   std::vector<std::string> names = DistinctNames(origins);
-  for (std::size_t i = 0; i < names.size(); ++i) sources_[i].name = std::move(names[i]);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    sources_[i].name = std::move(names[i]);
+    sources_[i].stream = StreamOf(origins[i].name);
+  }
 }
 
 ObjectSource::~ObjectSource() = default;
@@ -129,6 +133,10 @@ std::size_t ObjectSource::input(std::int64_t i) const {
   return sources_[static_cast<std::size_t>(i)].input;
 }
 
+std::uint64_t ObjectSource::stream(std::int64_t i) const {
+  return sources_[static_cast<std::size_t>(i)].stream;
+}
+
 InputObject ObjectSource::Load(std::int64_t i) const {
   const Source& source = sources_[static_cast<std::size_t>(i)];
   const Input& from = inputs_[source.input];
@@ -137,6 +145,7 @@ InputObject ObjectSource::Load(std::int64_t i) const {
                                         : FromFile(source.file);
   object.name = source.name;
   if (from.set && from.set->info().side > 0.0) object.unit = from.set->info().side;
+  object.stream = source.stream;
   return object;
 }
 

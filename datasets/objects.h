@@ -18,6 +18,7 @@ struct InputObject {
   std::string status;  // "ok", or why there is no usable solid ("open: 12 boundary edges", ...)
   std::string note;    // what was repaired; may be empty
   double unit = 1.0;   // of the mesh, in that of the file which a grid was imported from
+  std::uint64_t stream = 0;  // of its random draws: StreamOf its own name, beside any others
   bool ok() const { return status == "ok"; }
 };
 
@@ -31,7 +32,8 @@ class ObjectSource {
   ~ObjectSource();
   std::int64_t size() const;
   const std::string& name(std::int64_t i) const;
-  std::size_t input(std::int64_t i) const;  // which of the inputs it came with
+  std::size_t input(std::int64_t i) const;     // which of the inputs it came with
+  std::uint64_t stream(std::int64_t i) const;  // InputObject::stream
   // Any thread may call. A mesh is usable when it is a solid after repair (mesh/repair.h).
   // InputError for an unreadable file that was named itself and for a damaged grid; an unreadable
   // mesh inside a folder is an object with that status.

@@ -23,13 +23,15 @@ Eigen::Vector3d CommonPlace(std::initializer_list<const std::vector<TriangleMesh
   return RoundPlace(corners);
 }
 
-void AddPoints(const std::vector<TriangleMesh>& meshes, Stream set,
-               const SurfaceComparisonOptions& options, const Eigen::Vector3d& place,
+void AddPoints(const std::vector<TriangleMesh>& meshes, const std::vector<std::uint64_t>& streams,
+               Stream set, const SurfaceComparisonOptions& options, const Eigen::Vector3d& place,
                std::vector<PointSet>* points) {
+  AG_CHECK(streams.empty() || streams.size() == meshes.size(), "a stream each, or none");
   std::vector<std::optional<PointSet>> slots(meshes.size());
   ParallelFor(static_cast<std::int64_t>(meshes.size()), options.threads, [&](std::int64_t i) {
     const auto slot = static_cast<std::size_t>(i);
-    slots[slot] = SurfacePoints(meshes[slot], options.points, options.seed, set, slot, place);
+    slots[slot] = SurfacePoints(meshes[slot], options.points, options.seed, set,
+                                streams.empty() ? slot : streams[slot], place);
   });
   for (auto& slot : slots) points->push_back(std::move(*slot));
 }
@@ -67,10 +69,11 @@ std::vector<double> Floors(const std::vector<PointSet>& points, const std::vecto
 // `points`: the samples, then as many of the reference.
 Memorisation MemorisationOf(const std::vector<PointSet>& points,
                             const std::vector<TriangleMesh>& training,
+                            const std::vector<std::uint64_t>& streams,
                             const SurfaceComparisonOptions& options, const Eigen::Vector3d& place,
                             const ProgressFn& progress) {
   std::vector<PointSet> others;
-  AddPoints(training, kTraining, options, place, &others);
+  AddPoints(training, streams, kTraining, options, place, &others);
   const std::vector<double> nearest = NearestChamfer(points, others, options.threads, progress);
   const auto half = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
   const std::vector<double> samples(nearest.begin(), half), reference(half, nearest.end());
@@ -88,16 +91,17 @@ Memorisation MemorisationOf(const std::vector<PointSet>& points,
 SurfaceComparison CompareSurfaces(const std::vector<TriangleMesh>& samples,
                                   const std::vector<TriangleMesh>& reference,
                                   const std::vector<TriangleMesh>& training,
-                                  const SurfaceComparisonOptions& options, const PhaseFn& phase) {
+                                  const SurfaceComparisonOptions& options, const PhaseFn& phase,
+                                  const SurfaceStreams& streams) {
   AG_CHECK(samples.size() == reference.size(), "sets of the same size");
   AG_CHECK(samples.size() >= 2, "two sets of at least two shapes");
   const auto progress = [&](const char* name) { return phase ? phase(name) : ProgressFn(); };
   std::vector<PointSet> points, again;
   const Eigen::Vector3d place = CommonPlace({&samples, &reference, &training});
-  AddPoints(samples, kSamples, options, place, &points);
-  AddPoints(reference, kReference, options, place, &points);
-  AddPoints(samples, kSamplesAgain, options, place, &again);
-  AddPoints(reference, kReferenceAgain, options, place, &again);
+  AddPoints(samples, streams.samples, kSamples, options, place, &points);
+  AddPoints(reference, streams.reference, kReference, options, place, &points);
+  AddPoints(samples, streams.samples, kSamplesAgain, options, place, &again);
+  AddPoints(reference, streams.reference, kReferenceAgain, options, place, &again);
   const DistanceMatrix all = ChamferMatrix(points, options.threads, progress("distances"));
   const std::vector<double> floors = Floors(points, again, options.threads);
   const DistanceMatrix clean = WithoutFloors(all, floors);
@@ -113,7 +117,7 @@ SurfaceComparison CompareSurfaces(const std::vector<TriangleMesh>& samples,
   result.samples.vendi = VendiScore(clean.topLeftCorner(n, n), scale);
   result.reference.vendi = VendiScore(clean.bottomRightCorner(n, n), scale);
   if (!training.empty()) {
-    result.memorisation = MemorisationOf(points, training, options, place,
+    result.memorisation = MemorisationOf(points, training, streams.training, options, place,
                                          progress("distances to the training shapes"));
   }
   return result;

@@ -43,6 +43,12 @@ struct SurfaceComparison {
   std::optional<Memorisation> memorisation;  // with training shapes
 };
 
+// The numbers of the shapes' random streams, no two of a set the same; a set without any takes the
+// shapes' places in it.
+struct SurfaceStreams {
+  std::vector<std::uint64_t> samples, reference, training;
+};
+
 // Names a phase of the work and gets its progress.
 using PhaseFn = std::function<ProgressFn(const std::string&)>;
 
@@ -54,6 +60,7 @@ SurfaceComparison CompareSurfaces(const std::vector<TriangleMesh>& samples,
                                   const std::vector<TriangleMesh>& reference,
                                   const std::vector<TriangleMesh>& training,
                                   const SurfaceComparisonOptions& options,
-                                  const PhaseFn& phase = nullptr);
+                                  const PhaseFn& phase = nullptr,
+                                  const SurfaceStreams& streams = {});
 
 }  // namespace antigrasp

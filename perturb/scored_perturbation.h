@@ -38,7 +38,7 @@ struct ScoredPerturbation {
   double seconds = 0.0;     // of the algorithm alone, wall time
 };
 
-// Both meshes are scored as object number `object`; the algorithm draws from the stream
+// Both meshes are scored with the draws of stream `object`; the algorithm draws from the stream
 // (seed, "perturb", object). Single thread. The algorithm's progress is passed on. Any mesh; what
 // is no solid is returned with result.failure, and so is what no algorithm could move because it
 // has too few vertices ("unchanged: ..."). Wherever it lies: all work is done at the origin

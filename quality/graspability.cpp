@@ -179,6 +179,8 @@ Graspability EvaluateGraspability(const TriangleMesh& mesh, const MetricOptions&
   return EvaluateGraspability(mesh, options, seed, object, &ParallelJaws);
 }
 
+std::uint64_t FreshSeed(std::uint64_t seed) { return RngStream(seed, "rescore").NextU64(); }
+
 std::vector<Graspability> ScoreAll(std::int64_t count, const MeshOfObject& mesh,
                                    const StreamOfObject& stream, const MetricOptions& options,
                                    std::uint64_t seed, int threads, const ProgressFn& progress) {

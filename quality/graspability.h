@@ -51,6 +51,10 @@ struct Graspability {
 Graspability EvaluateGraspability(const TriangleMesh& mesh, const MetricOptions& options,
                                   std::uint64_t seed, std::uint64_t object);
 
+// The seed of a second scoring under fresh draws, for objects that were chosen by their scores
+// under `seed`: the lowest of many noisy scores is too low, the second one is not.
+std::uint64_t FreshSeed(std::uint64_t seed);
+
 // The same with grasps of another model in place of ParallelJaws.
 Graspability EvaluateGraspability(const TriangleMesh& mesh, const MetricOptions& options,
                                   std::uint64_t seed, std::uint64_t object,

@@ -23,8 +23,17 @@ struct ScoreSummary {
 std::optional<ScoreSummary> SummaryOf(const Graspability& score);
 
 // What `evaluate` adds, in this order; older tables have the first four at most.
-inline constexpr std::array kScoreExtras = {"seconds",         "egad",     "baseline", "difference",
-                                            "metres_per_unit", "extent_x", "extent_y", "extent_z"};
+inline constexpr std::array kScoreExtras = {"seconds",
+                                            "egad",
+                                            "baseline",
+                                            "difference",
+                                            "metres_per_unit",
+                                            "extent_x",
+                                            "extent_y",
+                                            "extent_z",
+                                            "graspability_fresh_draws",
+                                            "fresh_ci_low",
+                                            "fresh_ci_high"};
 
 // A row of scores.csv, of `evaluate` or of a run's stage.
 struct ScoreRow {

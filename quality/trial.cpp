@@ -201,7 +201,8 @@ Share ShareOfSeries(const std::vector<int>& held, int each) {
 
 std::vector<TrialResult> RunTrials(const std::vector<TriangleMesh>& meshes,
                                    const MetricOptions& metric, const TrialOptions& options,
-                                   std::uint64_t seed, int threads, const ProgressFn& progress) {
+                                   std::uint64_t seed, int threads, const ProgressFn& progress,
+                                   const std::vector<std::uint64_t>& streams) {
   std::vector<std::unique_ptr<const Bench>> benches(meshes.size());
   ParallelFor(std::ssize(meshes), threads, [&](std::int64_t i) {
     benches[static_cast<std::size_t>(i)] =
@@ -214,7 +215,8 @@ std::vector<TrialResult> RunTrials(const std::vector<TriangleMesh>& meshes,
         const auto object = static_cast<std::size_t>(i / options.series);
         if (benches[object] == nullptr) return;
         series[static_cast<std::size_t>(i)] =
-            benches[object]->Run(seed, object, static_cast<std::uint64_t>(i % options.series));
+            benches[object]->Run(seed, streams.empty() ? object : streams[object],
+                                 static_cast<std::uint64_t>(i % options.series));
       },
       progress);
   std::vector<TrialResult> results;

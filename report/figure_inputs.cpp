@@ -57,8 +57,8 @@ std::vector<GraspedObject> GraspedObjects(const std::vector<std::string>& inputs
         const InputObject& object = objects[static_cast<std::size_t>(i)];
         return object.ok() ? &object.mesh : nullptr;
       },
-      [](std::int64_t) { return std::uint64_t{0}; }, metric, seed, threads,
-      observer->Phase("scoring"));
+      [&](std::int64_t i) { return objects[static_cast<std::size_t>(i)].stream; }, metric, seed,
+      threads, observer->Phase("scoring"));
   std::vector<GraspedObject> grasped;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     std::string status = objects[i].ok() ? std::string(Name(scores[i].status)) : objects[i].status;

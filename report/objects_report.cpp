@@ -10,6 +10,7 @@
 #include "antigrasp/core/format.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/quality/object_size.h"
+#include "antigrasp/quality/sampling_effort.h"
 #include "antigrasp/quality/score_table.h"
 
 namespace antigrasp {
@@ -34,8 +35,7 @@ Table ReadTable(const std::string& path, std::vector<std::string>* missing) {
   return table;
 }
 
-// The row of the object and with it its random stream: the one at its own place, else the one of
-// its name.
+// The row of the object: the one at its own place, else the one of its name.
 const ScoreRow* RowOf(const std::string& name, std::size_t place, const Table& table) {
   if (place < table.rows.size() && table.rows[place].object == name) return &table.rows[place];
   const auto is_it = [&](const ScoreRow& row) { return row.object == name; };
@@ -48,7 +48,8 @@ std::vector<LabelledText> ExtrasOf(const ScoreRow& row) {
   static const std::map<std::string, std::string> kLabels = {
       {"egad", "EGAD's score"},
       {"baseline", "baseline"},
-      {"difference", "difference to the baseline"}};
+      {"difference", "difference to the baseline"},
+      {"graspability_fresh_draws", "graspability under fresh draws"}};
   std::vector<LabelledText> numbers;
   for (const auto& [name, value] : row.extras) {
     const auto label = kLabels.find(name);
@@ -87,9 +88,8 @@ Report TablesReport(const ReportSettings& settings, std::vector<Table> tables, R
   return report;
 }
 
-std::vector<ReportObject> LoadAll(const std::vector<std::string>& inputs,
-                                  const ReportSettings& settings, RunObserver* observer) {
-  const ObjectSource source(inputs);
+std::vector<ReportObject> LoadAll(const ObjectSource& source, const ReportSettings& settings,
+                                  RunObserver* observer) {
   std::vector<ReportObject> objects;
   for (InputObject& input :
        LoadObjects(source, settings.threads, observer->Phase("reading"), settings.limit)) {
@@ -129,23 +129,22 @@ Report ObjectsReport(const ReportSettings& settings, RunObserver* observer) {
     throw InputError("objects with " + std::to_string(tables.size()) + " tables of scores",
                      tables[1].path, "one table, that of these objects");
   }
-  SavedMetric metric{settings.seed, settings.metric, MetricToml(settings.metric, settings.seed)};
+  const ObjectSource source(inputs);
+  SavedMetric metric{settings.seed, settings.metric, ""};
+  if (settings.raise_effort) RaiseEffortForFew(source.size(), &metric.metric);
+  metric.toml = MetricToml(metric.metric, metric.seed);
   if (!tables.empty() && tables[0].metric) metric = *tables[0].metric;
   report.metric = metric.metric;
   report.config = metric.toml;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     report.groups.push_back({"input-" + std::to_string(i), inputs[i]});
   }
-  report.objects = LoadAll(inputs, settings, observer);
-  std::vector<std::uint64_t> streams(report.objects.size());
-  for (std::size_t i = 0; i < streams.size(); ++i) {
-    streams[i] = i;
-    if (tables.empty()) continue;
+  report.objects = LoadAll(source, settings, observer);
+  for (std::size_t i = 0; i < report.objects.size() && !tables.empty(); ++i) {
     const ScoreRow* row = RowOf(report.objects[i].name, i, tables[0]);
     if (row == nullptr) {
       report.missing.push_back(report.objects[i].name + " has no row in " + tables[0].path + ".");
     } else {
-      streams[i] = static_cast<std::uint64_t>(row - tables[0].rows.data());
       for (LabelledText& extra : ExtrasOf(*row)) {
         report.objects[i].numbers.push_back(std::move(extra));
       }
@@ -157,8 +156,8 @@ Report ObjectsReport(const ReportSettings& settings, RunObserver* observer) {
         const ReportObject& object = report.objects[static_cast<std::size_t>(i)];
         return object.status == "ok" ? &object.shape.mesh : nullptr;
       },
-      [&](std::int64_t i) { return streams[static_cast<std::size_t>(i)]; }, metric.metric,
-      metric.seed, settings.threads, observer->Phase("scoring"));
+      [&](std::int64_t i) { return source.stream(i); }, metric.metric, metric.seed,
+      settings.threads, observer->Phase("scoring"));
   UnlikelySizes sizes(metric.metric);
   for (std::size_t i = 0; i < scores.size(); ++i) {
     ReportObject& object = report.objects[i];

@@ -94,8 +94,10 @@ std::vector<char> ReadAndScore(const fs::path& root, const SavedMetric* saved,
         scored[static_cast<std::size_t>(i)] = 1;
         return &shape->mesh;
       },
-      [](std::int64_t i) { return static_cast<std::uint64_t>(i / 2); }, metric.metric, metric.seed,
-      settings.threads, observer->Phase("scoring"));
+      [&](std::int64_t i) {
+        return StreamOf((*rows)[static_cast<std::size_t>(i / 2)].object.name);
+      },
+      metric.metric, metric.seed, settings.threads, observer->Phase("scoring"));
   for (std::size_t i = 0; i < scores.size(); ++i) {
     if (scored[i] == 0) continue;
     const Row& row = (*rows)[i / 2];

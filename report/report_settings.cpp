@@ -8,7 +8,9 @@
 namespace antigrasp {
 
 ReportShape ShapeOf(TriangleMesh mesh, const Graspability& score) {
-  return {SummaryOf(score), std::move(mesh), score.scale, score.grasps};
+  std::vector<ScoredGrasp> shown = score.grasps;
+  if (shown.size() > kShownGrasps) shown.resize(kShownGrasps);
+  return {SummaryOf(score), std::move(mesh), score.scale, std::move(shown)};
 }
 
 std::string NumberText(double value) {

@@ -107,7 +107,8 @@ class Runner:
             shutil.rmtree(folder, ignore_errors=True)
             call("perturb", *setting.flags.split(), self.prior(kind), "--out", folder, allowed=(0, 1))  # 1: no object
             if any((folder / "after").iterdir()):
-                call("evaluate", folder / "after", "--baseline", folder / "before", "--noise", "dexnet", "--out", scores)
+                call("evaluate", folder / "after", "--baseline", folder / "before", "--noise", "dexnet",
+                     "--num-grasps", "100", "--out", scores)
             else:
                 scores.touch()
         self.left -= setting.cost

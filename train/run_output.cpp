@@ -9,7 +9,6 @@
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_writer.h"
-#include "antigrasp/core/rng.h"
 #include "antigrasp/mesh/fit.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/models/sdf_values.h"
@@ -115,7 +114,6 @@ void ExportLeastGraspable(const ScoredStage& scored, const RunConfig& config,
   std::stable_sort(worst.begin(), worst.end(),
                    [&](std::int64_t a, std::int64_t b) { return value(a) < value(b); });
   MakeFolder(folder.Stl());
-  const std::uint64_t fresh = RngStream(config.seed, "rescore").NextU64();
   const auto mesh = [&](std::int64_t rank) {
     const auto object = static_cast<std::size_t>(worst[static_cast<std::size_t>(rank)]);
     return &scored.objects[object].mesh;
@@ -123,8 +121,8 @@ void ExportLeastGraspable(const ScoredStage& scored, const RunConfig& config,
   const auto stream = [&](std::int64_t rank) {
     return static_cast<std::uint64_t>(worst[static_cast<std::size_t>(rank)]);
   };
-  const std::vector<Graspability> again =
-      ScoreAll(std::ssize(worst), mesh, stream, config.metric, fresh, config.threads);
+  const std::vector<Graspability> again = ScoreAll(std::ssize(worst), mesh, stream, config.metric,
+                                                   FreshSeed(config.seed), config.threads);
   CsvWriter csv({"file", "object", "graspability", "graspability_fresh_draws", "ci_low", "ci_high",
                  "size_mm"});
   for (std::size_t rank = 0; rank < worst.size(); ++rank) {

@@ -1,6 +1,7 @@
 // The command compare: what it prints and writes, limits and refusals.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -8,6 +9,7 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_reader.h"
 #include "antigrasp/core/format.h"
+#include "antigrasp/core/rng.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/datasets/surface_comparison.h"
 #include "antigrasp/mesh/mesh_file.h"
@@ -94,7 +96,13 @@ TEST(CompareCli, WritesEveryMeasureOfEitherSetUnderItsOwnName) {
   const Outcome outcome = Antigrasp("compare " + dir + "a " + dir + "b --train " + dir +
                                     "t --points 300 --seed 5 --out " + dir + "c.csv");
   ASSERT_EQ(outcome.code, 0) << outcome.text;
-  const SurfaceComparison found = CompareSurfaces(a, b, t, {.points = 300, .seed = 5});
+  const auto streams = [](std::size_t count) {  // of "0.stl", "1.stl", ...
+    std::vector<std::uint64_t> numbers;
+    for (std::size_t i = 0; i < count; ++i) numbers.push_back(HashOf(std::to_string(i)));
+    return numbers;
+  };
+  const SurfaceComparison found = CompareSurfaces(a, b, t, {.points = 300, .seed = 5}, nullptr,
+                                                  {streams(3), streams(3), streams(1)});
   auto measures = Measures(folder / "c.csv");
   const auto expect = [&](const std::string& name, double samples, std::optional<double> other) {
     EXPECT_EQ(measures[name].samples, FormatDouble(samples)) << name;
@@ -141,6 +149,27 @@ TEST(CompareCli, TakesAsManyShapesOfBothSetsAsAskedFor) {
   EXPECT_EQ(Measures(folder / "three.csv")["shapes"].reference, "3");
   ASSERT_EQ(Antigrasp(sets + "other.csv --seed 2").code, 0);
   EXPECT_NE(ReadFile(folder / "all.csv"), ReadFile(folder / "other.csv"));
+}
+
+TEST(CompareCli, TheSameShapesAreKeptAndDrawnInAnyOrder) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  ASSERT_EQ(Antigrasp("dataset make bottles --count 6 --seed 1 --out " + dir + "a.h5").code, 0);
+  ASSERT_EQ(Antigrasp("dataset make bottles --count 6 --seed 2 --out " + dir + "b.h5").code, 0);
+  ShapeSet set = ReadShapeSet(folder / "a.h5");
+  std::reverse(set.grids.begin(), set.grids.end());
+  std::reverse(set.names.begin(), set.names.end());
+  WriteShapeSet(folder / "turned.h5", set);
+  for (const char* name : {"a", "turned"}) {
+    ASSERT_EQ(Antigrasp("compare " + dir + name + ".h5 " + dir + "b.h5 --count 2 --points 100 " +
+                        "--out " + dir + name + ".csv")
+                  .code,
+              0);
+  }
+  auto one = Measures(folder / "a.csv"), two = Measures(folder / "turned.csv");
+  EXPECT_EQ(one["size"].samples, two["size"].samples);
+  EXPECT_EQ(one["floor"].samples, two["floor"].samples);
+  EXPECT_EQ(one["mean_distance"].samples, two["mean_distance"].samples);
 }
 
 TEST(CompareCli, DrawsEitherSetByAStreamOfItsOwn) {

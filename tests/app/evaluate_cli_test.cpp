@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "antigrasp/core/atomic_file.h"
+#include "antigrasp/datasets/object_names.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/repair.h"
 #include "antigrasp/quality/graspability.h"
@@ -37,9 +38,9 @@ void WriteMovedBox(const fs::path& path) {
 }
 
 // As evaluate reads and scores it.
-Graspability Scored(const fs::path& path, const MetricOptions& metric, std::uint64_t seed,
-                    std::uint64_t object) {
-  return EvaluateGraspability(Repair(ReadMesh(path)).mesh, metric, seed, object);
+Graspability Scored(const fs::path& path, const MetricOptions& metric, std::uint64_t seed) {
+  return EvaluateGraspability(Repair(ReadMesh(path)).mesh, metric, seed,
+                              StreamOf(path.filename().string()));
 }
 
 TEST(EvaluateCli, WritesEveryNumberOfAScoreUnderItsOwnName) {
@@ -62,7 +63,7 @@ TEST(EvaluateCli, WritesEveryNumberOfAScoreUnderItsOwnName) {
   int copies = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string name = i == 0 ? "a.stl" : "b.stl";
-    const Graspability score = Scored(folder / "in" / name, metric, 5, i);
+    const Graspability score = Scored(folder / "in" / name, metric, 5);
     EXPECT_EQ(rows[i].at("object"), name);
     EXPECT_EQ(rows[i].at("status"), "ok");
     EXPECT_EQ(rows[i].at("num_grasps"), "12");
@@ -102,7 +103,7 @@ TEST(EvaluateCli, WritesGraspsWhoseColumnsSayWhatTheyHold) {
   MetricOptions metric;
   metric.num_grasps = 12;
   metric.num_draws = 3;
-  const Graspability score = Scored(folder / "box.stl", metric, 5, 0);
+  const Graspability score = Scored(folder / "box.stl", metric, 5);
   const auto rows = CsvRows(folder / "g.csv");
   ASSERT_EQ(rows.size(), 12U);
   for (std::size_t g = 0; g < rows.size(); ++g) {
@@ -257,13 +258,13 @@ TEST(EvaluateCli, TakesTheBaselineFromTheOriginalOfTheSameName) {
   MetricOptions metric;
   metric.num_grasps = 12;
   metric.num_draws = 3;
-  const double a = Scored(folder / "before/a.stl", metric, 5, 0).value,
-               b = Scored(folder / "before/b.stl", metric, 5, 1).value,
-               changed = Scored(folder / "after/b.stl", metric, 5, 1).value;
+  const double a = Scored(folder / "before/a.stl", metric, 5).value,
+               b = Scored(folder / "before/b.stl", metric, 5).value,
+               changed = Scored(folder / "after/b.stl", metric, 5).value;
   ASSERT_GT(changed, 0.0);
   ASSERT_LT(changed, 0.9 * b);
   ASSERT_NE(a, b);
-  ASSERT_GT(Scored(folder / "before/c.stl", metric, 5, 2).value, 0.0);
+  ASSERT_GT(Scored(folder / "before/c.stl", metric, 5).value, 0.0);
   const auto rows = CsvRows(folder / "s.csv");
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0].at("object"), "a.stl");
@@ -315,7 +316,8 @@ TEST(EvaluateCli, SaysThatNoPairHasTwoScoresOrThatTheBaselineIsZeroWithoutANumbe
   EXPECT_EQ(none.text.find("nan"), std::string::npos) << none.text;
   const Outcome zero = Antigrasp(common + dir + "cube.stl --torsion none");
   EXPECT_EQ(zero.code, 0) << zero.text;
-  EXPECT_NE(zero.text.find("paired difference +0.00000, the baseline is 0, 1 pairs\n"),
+  EXPECT_NE(zero.text.find("paired difference +0.00000, 95 % interval over its grasps +0.00000 to "
+                           "+0.00000, the baseline is 0, 1 pairs\n"),
             std::string::npos)
       << zero.text;
   EXPECT_EQ(zero.text.find("nan"), std::string::npos) << zero.text;

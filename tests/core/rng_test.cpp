@@ -21,6 +21,14 @@ TEST(Philox, GivesThePublishedKnownAnswers) {
             (Block{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
+TEST(HashOf, GivesThePublishedAnswersOfFnv1a) {
+  // draft-eastlake-fnv, 64-bit FNV-1a.
+  EXPECT_EQ(HashOf(""), 0xcbf29ce484222325ULL);
+  EXPECT_EQ(HashOf("a"), 0xaf63dc4c8601ec8cULL);
+  EXPECT_EQ(HashOf("foobar"), 0x85944171f73967e8ULL);
+  EXPECT_NE(HashOf("\xc3\xa9"), HashOf("\xc3\xa8"));  // bytes above 127 count
+}
+
 TEST(RngStream, RepeatsForEqualWorkItemsAndDiffersForAnyOtherOne) {
   const auto first = [](RngStream rng) { return rng.NextU64(); };
   const std::uint64_t reference = first(RngStream(1, "grasp", 2, 3));

@@ -49,6 +49,32 @@ TEST(BootstrapPercentile, MatchesTheNormalApproximationOfTheBinomial) {
   EXPECT_NEAR(interval.high, 75.0 + 1.96 * 4.33, 1.1);
 }
 
+TEST(BootstrapPercentileDifference, WeighsEveryPairByItsChance) {
+  // The larger of two draws from {1, 2} is 1 with probability 1/4, else 2; from {10, 40} alike. The
+  // differences -39, -38, -9, -8 have 3/16, 9/16, 1/16, 3/16: 2.5 % lie in the first, 97.5 % in the
+  // last.
+  const Interval interval = BootstrapPercentileDifference({2.0, 1.0}, {10.0, 40.0}, 100.0);
+  EXPECT_EQ(interval.low, -39.0);
+  EXPECT_EQ(interval.high, -8.0);
+  const Interval turned = BootstrapPercentileDifference({10.0, 40.0}, {2.0, 1.0}, 100.0);
+  EXPECT_EQ(turned.low, 8.0);
+  EXPECT_EQ(turned.high, 39.0);
+}
+
+TEST(BootstrapPercentileDifference, FromOneSureValueIsTheIntervalOfTheOther) {
+  const Interval own = BootstrapPercentile(Count(400), 75.0);
+  const Interval interval = BootstrapPercentileDifference(Count(400), {100.0}, 75.0);
+  EXPECT_EQ(interval.low, own.low - 100.0);
+  EXPECT_EQ(interval.high, own.high - 100.0);
+}
+
+TEST(BootstrapPercentileDifference, OfTwoAlikeIsTheRootOfTwoAsWide) {
+  // The percentile of 1, 2, ..., n deviates by sqrt(n 0.75 0.25), 13.7.
+  const Interval interval = BootstrapPercentileDifference(Count(1000), Count(1000), 75.0);
+  EXPECT_NEAR(interval.high, 1.96 * 13.7 * std::sqrt(2.0), 1.5);
+  EXPECT_NEAR(interval.low, -interval.high, 1.5);
+}
+
 TEST(BootstrapPercentile, IsTheBinomialTailOnAHandfulOfValues) {
   // The larger of two is at most the first value with probability 1/4, the smaller with 3/4.
   EXPECT_EQ(BootstrapPercentile({1.0, 2.0}, 100.0).low, 1.0);

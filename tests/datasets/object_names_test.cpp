@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "antigrasp/core/rng.h"
+
 namespace antigrasp {
 namespace {
 
@@ -40,6 +42,19 @@ TEST(ObjectNames, AnObjectNamedTwiceIsNumbered) {
             (Names{"mug.stl", "mug_3.stl", "mug_2"}));
   EXPECT_EQ(DistinctNames({{"same", "/set"}, {"same", "/set"}, {"", "/set"}}),
             (Names{"same", "same_2", "unnamed"}));
+}
+
+TEST(ObjectNames, TheStreamIsThatOfTheFileNameAloneWhateverItsFolderAndFormat) {
+  for (const char* name : {"mug.stl", "mug.obj", "a/mug.stl", "001/google_16k/mug.ply", "mug",
+                           "mug_stl", "a/mug_obj"}) {
+    EXPECT_EQ(StreamOf(name), HashOf("mug")) << name;
+  }
+  for (const char* name : {"mug_2.stl", "mugs.stl", "mug/cup.stl", "a_mug.stl", "Mug.stl", "_stl",
+                           "mug_small.stl", ""}) {
+    EXPECT_NE(StreamOf(name), HashOf("mug")) << name;
+  }
+  EXPECT_EQ(StreamOf("cylinders-000017"), HashOf("cylinders-000017"));
+  EXPECT_EQ(StreamOf("v1.2/part 3.5.stl"), HashOf("part 3.5"));
 }
 
 TEST(ObjectNames, NoTwoNamesGiveOneFileWhateverTheyAre) {

@@ -63,6 +63,19 @@ TEST(ObjectSource, EveryObjectIsReadAloneAndInAnyOrder) {
   EXPECT_EQ(two[1].name, "box_stl");
 }
 
+TEST(ObjectSource, AnObjectsStreamIsItsOwnBesideAnyOthers) {
+  const TempFolder folder;
+  const std::vector<std::string> inputs = Inputs(folder);
+  const ObjectSource all(inputs), alone({(folder / "in/box.stl").string()}),
+      turned({inputs[2], inputs[1], inputs[0]});
+  EXPECT_EQ(all.stream(1), alone.stream(0));
+  EXPECT_EQ(all.stream(1), turned.stream(4));  // "box_stl", to be told from box.ply
+  EXPECT_EQ(all.stream(0), StreamOf("cube"));
+  EXPECT_EQ(all.stream(5), StreamOf("cylinders-000001"));
+  EXPECT_EQ(all.Load(5).stream, all.stream(5));
+  EXPECT_EQ(LoadObjects(turned, 2)[4].stream, alone.stream(0));
+}
+
 TEST(ObjectSource, RefusesWhatIsThereInNoFormAndSaysSo) {
   const TempFolder folder;
   const auto refuses = [&](const std::string& input, const std::string& words) {

@@ -47,6 +47,35 @@ TEST(CompareSurfaces, FindsThePermutedSetItself) {
   EXPECT_FALSE(same.memorisation.has_value());
 }
 
+TEST(CompareSurfaces, AShapesPointsAreThoseOfItsStreamAtAnyPlace) {
+  const Meshes samples = Boxes(2, 1), reference = Boxes(2, 2), training = Boxes(2, 3);
+  const auto turned = [](auto set) {
+    std::reverse(set.begin(), set.end());
+    return set;
+  };
+  const SurfaceStreams streams{{1, 2}, {3, 4}, {5, 6}};
+  const auto compare = [&](const Meshes& a, const Meshes& b, const Meshes& c,
+                           const SurfaceStreams& own) {
+    return CompareSurfaces(a, b, c, Coarse(), nullptr, own);
+  };
+  const SurfaceComparison one = compare(samples, reference, training, streams),
+                          two = compare(turned(samples), turned(reference), turned(training),
+                                        {{2, 1}, {4, 3}, {6, 5}});
+  EXPECT_EQ(one.spread.samples.mean_distance, two.spread.samples.mean_distance);
+  EXPECT_EQ(one.samples.floor, two.samples.floor);
+  EXPECT_EQ(one.reference.floor, two.reference.floor);
+  EXPECT_EQ(one.memorisation->samples, two.memorisation->samples);
+  // Each set's numbers are its own.
+  const SurfaceComparison others = compare(samples, reference, training, {{1, 9}, {3, 4}, {5, 6}}),
+                          trained = compare(samples, reference, training, {{1, 2}, {3, 4}, {5, 9}}),
+                          held = compare(samples, reference, training, {{1, 2}, {9, 4}, {5, 6}});
+  EXPECT_NE(others.samples.floor, one.samples.floor);
+  EXPECT_EQ(others.reference.floor, one.reference.floor);
+  EXPECT_NE(held.reference.floor, one.reference.floor);
+  EXPECT_EQ(held.samples.floor, one.samples.floor);
+  EXPECT_NE(trained.memorisation->samples, one.memorisation->samples);
+}
+
 TEST(CompareSurfaces, SeesOneShapeRepeated) {
   const Meshes reference = Boxes(20, 1), repeated(20, reference[3]);
   const SurfaceComparison found = CompareSurfaces(repeated, reference, {}, Coarse());

@@ -182,6 +182,19 @@ TEST(RunTrials, EverySeriesAndEveryObjectHasItsOwnStreams) {
   EXPECT_NE(RunTrials({House()}, metric, three, 9).front().confidence, results[0].confidence);
 }
 
+TEST(RunTrials, AnObjectWithItsStreamIsTriedAloneAsBesideOthers) {
+  const MetricOptions metric = UnusualMetric();
+  TrialOptions options;
+  options.series = 3;
+  const auto both =
+      RunTrials({shapes::Cube(), House()}, metric, options, 9, 0, nullptr, {71, 1'000'000'007});
+  const auto alone = RunTrials({House()}, metric, options, 9, 0, nullptr, {1'000'000'007}),
+             other = RunTrials({House()}, metric, options, 9, 0, nullptr, {71});
+  EXPECT_EQ(both[1].confidence, alone[0].confidence);
+  EXPECT_EQ(both[1].held.value, alone[0].held.value);
+  EXPECT_NE(both[1].confidence, other[0].confidence);
+}
+
 TEST(TrialOptions, EveryKeyIsBoundToItsFieldAndEveryDefaultIsItsNumber) {
   EXPECT_EQ(
       LinesOf(TrialOptions()),

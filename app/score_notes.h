@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "antigrasp/core/statistics.h"
+#include "antigrasp/datasets/objects.h"
+#include "antigrasp/quality/graspability.h"
+
+// Lines that `evaluate` says about its scores.
+namespace antigrasp {
+
+// The difference that a change made to one object, which says nothing about other objects, with its
+// interval over grasps.
+struct PairDifference {
+  double difference = 0.0;
+  Interval interval;
+};
+PairDifference DifferenceOf(const Graspability& changed, const Graspability& original,
+                            double percentile);
+// "paired difference -0.00050, 95 % interval over its grasps -0.00060 to -0.00040, -25.8 % (-30.9
+// to -20.6) of the baseline's 0.00194, 1 pairs".
+std::string PairText(const PairDifference& pair, double baseline);
+
+// The interval over grasps of a set's only score: "95 % interval over its grasps 0.00141 to
+// 0.00155, -4.1 to +5.4 %".
+std::string IntervalText(const Graspability& score);
+
+// Beside the sets of quality/known_scores.h: "harder to grasp than 71 % of cylinders, ...", or that
+// there are none at these constants. `mean`: it is that of several objects.
+std::string KnownText(double graspability, bool mean, const MetricOptions& metric);
+
+// That objects meet the same draws because they have one name, as in a data set of folders; ""
+// where all have their own.
+std::string SharedDrawsText(const ObjectSource& objects);
+
+}  // namespace antigrasp

@@ -1,0 +1,21 @@
+#include "antigrasp/quality/sampling_effort.h"
+
+#include <algorithm>
+
+namespace antigrasp {
+
+void RaiseEffortForFew(std::int64_t objects, MetricOptions* options) {
+  if (objects > kFewObjects || options->num_grasps >= kGraspsOfFew) return;
+  const std::int64_t attempts =
+      std::int64_t{options->max_attempts} * kGraspsOfFew / options->num_grasps;
+  options->max_attempts = static_cast<int>(std::min<std::int64_t>(attempts, 1'000'000'000));
+  options->num_grasps = kGraspsOfFew;
+}
+
+std::string EffortText(std::int64_t objects, const MetricOptions& options) {
+  return std::to_string(options.num_grasps) + " grasps an object, as there are " +
+         (objects > kFewObjects ? "more than " : "at most ") + std::to_string(kFewObjects) +
+         " objects";
+}
+
+}  // namespace antigrasp
