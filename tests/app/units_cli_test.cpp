@@ -44,8 +44,11 @@ class UnitsCli : public testing::Test {
 
 TEST_F(UnitsCli, EvaluateScoresTheSameObjectInEveryUnitAndSaysItsSize) {
   for (const std::string unit : {"mm", "in", "m"}) {
+    // Of one name, so that all meet the same draws.
+    std::filesystem::create_directory(folder / unit);
+    std::filesystem::copy(folder / (unit + ".obj"), folder / unit / "box.obj");
     const Outcome outcome =
-        Antigrasp("evaluate " + File(unit + ".obj") + kFewGrasps + "--true-size --units " + unit +
+        Antigrasp("evaluate " + File(unit + "/box.obj") + kFewGrasps + "--true-size --units " + unit +
                   " --out " + File(unit + ".csv") + "--grasps " + File(unit + ".grasps.csv"));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     EXPECT_TRUE(Says(outcome, ", at true size (" + unit + ")\n")) << outcome.text;
