@@ -86,7 +86,7 @@ TEST(HardestCli, ExportWritesThemWithBothScores) {
   ASSERT_EQ(Antigrasp("evaluate " + dir + "in" + hardest + "--out " + dir + "s.csv").code, 0);
   const Outcome outcome = Antigrasp("export " + dir + "in" + hardest + "--out " + dir + "print");
   ASSERT_EQ(outcome.code, 0) << outcome.text;
-  Table expected = CsvRows(folder / "s.csv"), rows = CsvRows(folder / "print/scores.csv");
+  Table expected = CsvRows(folder / "s.csv"), rows = CsvRows(folder / "print/hardest.csv");
   const Table printed = CsvRows(folder / "print/print.csv");
   ASSERT_EQ(rows.size(), 2U);
   ASSERT_EQ(printed.size(), 2U);
@@ -99,7 +99,7 @@ TEST(HardestCli, ExportWritesThemWithBothScores) {
     EXPECT_TRUE(fs::exists(folder / "print" / file)) << file;
   }
   EXPECT_FALSE(fs::exists(folder / "print/ball.stl"));
-  const std::string toml = ReadFile(folder / "print/scores.csv.metric.toml");
+  const std::string toml = ReadFile(folder / "print/hardest.csv.metric.toml");
   EXPECT_NE(toml.find("num_grasps = 25"), std::string::npos) << toml;
   EXPECT_NE(outcome.text.find("the 2 hardest of 4: "), std::string::npos) << outcome.text;
 }

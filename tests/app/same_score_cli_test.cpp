@@ -60,10 +60,10 @@ TEST(SameScoreCli, AloneInAFolderAndInAnyOrder) {
   EXPECT_EQ(turned["in/b.stl"], all["b.stl"]);
   EXPECT_EQ(turned["deep/b.stl"], all["deep/b.stl"]);
   // A number of another seed is another one.
-  ASSERT_EQ(Antigrasp("evaluate " + a + " --seed 6 --num-grasps 12 --num-draws 3 --out " + dir +
-                      "s.csv")
-                .code,
-            0);
+  ASSERT_EQ(
+      Antigrasp("evaluate " + a + " --seed 6 --num-grasps 12 --num-draws 3 --out " + dir + "s.csv")
+          .code,
+      0);
   EXPECT_NE(ByObject(folder / "s.csv", "graspability")["a.stl"], all["a.stl"]);
 }
 

@@ -47,9 +47,9 @@ TEST_F(UnitsCli, EvaluateScoresTheSameObjectInEveryUnitAndSaysItsSize) {
     // Of one name, so that all meet the same draws.
     std::filesystem::create_directory(folder / unit);
     std::filesystem::copy(folder / (unit + ".obj"), folder / unit / "box.obj");
-    const Outcome outcome =
-        Antigrasp("evaluate " + File(unit + "/box.obj") + kFewGrasps + "--true-size --units " + unit +
-                  " --out " + File(unit + ".csv") + "--grasps " + File(unit + ".grasps.csv"));
+    const Outcome outcome = Antigrasp(
+        "evaluate " + File(unit + "/box.obj") + kFewGrasps + "--true-size --units " + unit +
+        " --out " + File(unit + ".csv") + "--grasps " + File(unit + ".grasps.csv"));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     EXPECT_TRUE(Says(outcome, ", at true size (" + unit + ")\n")) << outcome.text;
     EXPECT_NE(ReadFile(folder / (unit + ".csv.metric.toml")).find("units = '" + unit + "'"),
