@@ -90,7 +90,7 @@ void RefuseUnknownWord(const CLI::App& command) {
 
 int Parse(int argc, char** argv, const std::function<void(CLI::App*)>& add_commands) {
   CLI::App app(
-      "Designs objects that look ordinary and that a parallel-jaw gripper cannot hold "
+      "Designs objects that look ordinary and that a parallel-jaw gripper finds hard to grasp "
       "(Adversarial Grasp Objects, Wang et al. 2019)",
       "antigrasp");
   app.set_version_flag("--version", "antigrasp " + ProgramVersion() + " (" + ProgramCommit() + ")");
