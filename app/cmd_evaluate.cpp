@@ -194,6 +194,7 @@ void Evaluate(const EvaluateFlags& flags, const MetricFlags& metric_flags) {
   RequireApart({flags.out, MetricPath(flags), flags.grasps});
   const ObjectSource objects(flags.inputs);
   objects.RequireNotRead({flags.out, MetricPath(flags), flags.grasps});
+  RequireNotRead(metric_flags.gripper(), {flags.out, MetricPath(flags), flags.grasps});
   if (!flags.baseline.empty()) {
     ObjectSource(flags.baseline).RequireNotRead({flags.out, MetricPath(flags), flags.grasps});
   }

@@ -38,6 +38,7 @@ void CheckThatItFolds(const ModelOptions& model, const std::string& origin) {
 
 void WriteGenerator(const GeneratorFlags& flags) {
   const fs::path path = FindNetworks(flags.checkpoint);
+  RequireNotRead(path, {flags.out});
   const AtomicFile probe(flags.out);  // refuses an unwritable target before the work
   Checkpoint checkpoint = ReadCheckpoint(path);
   RunConfig config = NetworksFromToml(checkpoint.config, path.string());

@@ -58,6 +58,7 @@ void Gripper(const std::string& name, const std::string& out) {
   RequireFittingGripper(metric, name);
   const std::string toml = GripperToml(metric, AboutOf(name));
   const std::filesystem::path path = out;
+  RequireNotRead(name, {path});
   const bool as_mesh = !out.empty() && path.extension() != ".png" && path.extension() != ".toml";
   if (as_mesh) RequireWritableFormat(path);
   std::fputs(toml.c_str(), stdout);

@@ -31,6 +31,7 @@ struct SampleFlags {
 
 void Sample(const SampleFlags& flags) {
   const fs::path path = FindNetworks(flags.checkpoint);
+  RequireNotRead(path, {flags.out});
   { const AtomicFile probe(flags.out); }  // refuses an unwritable target before the work
   const Checkpoint checkpoint = ReadCheckpoint(path);
   RunConfig config = NetworksFromToml(checkpoint.config, path.string());

@@ -92,7 +92,10 @@ RunResult Start(const TrainFlags& flags, RunObserver* console) {
     }
     return ResumeRun(run.root, console);
   }
-  if (flags.overwrite && run.HoldsARun()) run.Remove();
+  if (flags.overwrite && run.HoldsARun()) {
+    RequireInputs(config, run.root);  // what is refused costs no run
+    run.Remove();
+  }
   return StartRun(config, flags.out, console);
 }
 

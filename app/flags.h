@@ -39,6 +39,7 @@ class MetricFlags {
   void RaiseEffort(std::int64_t objects, MetricOptions* options) const;
   bool effort_given() const;  // --preset, --num-grasps or --max-attempts
   const std::string& preset() const { return *preset_; }
+  const std::string& gripper() const { return *gripper_; }  // a name or a file
   bool given() const;  // whether any of them was on the command line
 
  private:

@@ -147,6 +147,14 @@ void RequireApart(const std::vector<fs::path>& written) {
   }
 }
 
+void RequireNotRead(const fs::path& read, const std::vector<fs::path>& written) {
+  if (read.empty()) return;
+  for (const fs::path& path : written) {
+    if (path.empty() || fs::weakly_canonical(path) != fs::weakly_canonical(read)) continue;
+    throw InputError("would be written over a file that is read", path.string(), "another --out");
+  }
+}
+
 void MakeFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);

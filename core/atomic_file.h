@@ -54,6 +54,10 @@ void RequireFile(const std::filesystem::path& path, const std::string& expected)
 // InputError when two of the files to be written are one; empty paths are none.
 void RequireApart(const std::vector<std::filesystem::path>& written);
 
+// InputError when a file that is read would be written over. Empty paths are none.
+void RequireNotRead(const std::filesystem::path& read,
+                    const std::vector<std::filesystem::path>& written);
+
 // Creates the folder (and parents). InputError when something else is in the way or not writable.
 void MakeFolder(const std::filesystem::path& folder);
 

@@ -147,6 +147,22 @@ RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver*
   return Finish(config, run, prior, &recorder, make);
 }
 
+void RequireInputs(const RunConfig& config, const fs::path& folder) {
+  const std::string root = (fs::weakly_canonical(folder) / "").string();
+  const auto require_outside = [&](const fs::path& path) {
+    if (!fs::weakly_canonical(path).string().starts_with(root)) return;
+    throw InputError("lies in the run that is to be overwritten", path.string(),
+                     "a copy elsewhere");
+  };
+  Validate(config, "configuration");
+  if (!config.prior_file.empty()) {
+    ReadShapeSetInfo(config.prior_file);
+    require_outside(config.prior_file);
+  }
+  RequireFittingStart(config);
+  if (!config.start.empty()) require_outside(FindNetworks(config.start));
+}
+
 RunResult ResumeRun(const fs::path& folder, RunObserver* observer, const ShapeModelMaker& make) {
   const RunFolder run{folder};
   const RunConfig config = ConfigOfRun(folder);

@@ -28,6 +28,10 @@ struct RunResult {
 RunResult StartRun(const RunConfig& config, const std::filesystem::path& folder,
                    RunObserver* observer, const ShapeModelMaker& make = MakeGan);
 
+// What StartRun refuses of its inputs, for those who make room for a run first: InputError when the
+// prior file or the networks to begin with are missing, do not fit or lie in `folder`.
+void RequireInputs(const RunConfig& config, const std::filesystem::path& folder);
+
 // Goes on where the folder's last checkpoint stands; a finished run only reports its numbers. What
 // a killed process left half written is removed. InputError: another process trains the run.
 // `make`: as the run was started with.

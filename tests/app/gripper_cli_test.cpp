@@ -106,6 +106,10 @@ TEST(GripperCli, RefusesInOneLine) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/", box = dir + "box.stl";
   WriteMesh(folder / "box.stl", shapes::Box({1.0, 1.5, 2.0}));
+  folder.Write("mine.toml", Antigrasp("gripper panda").text);
+  const std::string mine = dir + "mine.toml", written_over = "would be written over a file";
+  ExpectRefused("evaluate " + box + " --gripper " + mine + " --out " + mine, written_over);
+  ExpectRefused("gripper " + mine + " --out " + mine, written_over);
   ExpectRefused("evaluate " + box + " --gripper pand", "the nearest name is panda\n");
   ExpectRefused("evaluate " + box + " --gripper " + dir + "none.toml", "none.toml");
   ExpectRefused("evaluate " + box + " --jaw-opening 0.085",

@@ -200,6 +200,16 @@ TEST(RunCli, ARunCanBeKilledResumedSampledAndExported) {
     EXPECT_TRUE(ReadFile(folder / "whole" / name) == ReadFile(folder / "parts" / name)) << name;
   }
   ExpectRefused(start + "whole", "a run is already there");
+  // What is refused costs no run, nor the networks that are read.
+  const std::string run = dir + "whole", kept = ReadFile(folder / "whole/checkpoint.pt");
+  ExpectRefused(start + "whole --overwrite --set prior.file=" + dir + "none.h5", "none.h5");
+  ExpectRefused(start + "whole --overwrite --set prior.file=" + run + "/prior.h5",
+                "lies in the run that is to be overwritten");
+  for (const char* command : {"sample ", "generator "}) {
+    ExpectRefused(command + run + " --out " + run + "/checkpoint.pt",
+                  "would be written over a file that is read");
+  }
+  EXPECT_TRUE(ReadFile(folder / "whole/checkpoint.pt") == kept);
   EXPECT_EQ(Antigrasp(start + "parts --or-resume --overwrite --set cem.episodes=0 " +
                       "--set cem.control=false")
                 .code,
