@@ -79,9 +79,13 @@ std::vector<std::int64_t> ChooseHardest(const ObjectSource& objects, const Expor
                                         const MetricOptions& metric,
                                         const std::filesystem::path& folder) {
   ConsoleObserver console;
+  const std::vector<ScoreRow> rows =
+      ScoreRowsOf(objects, metric, flags.seed, flags.threads, &console);
   const std::vector<HardestObject> hardest =
-      FindHardest(objects, ScoreRowsOf(objects, metric, flags.seed, flags.threads, &console),
-                  flags.hardest, metric, flags.seed, flags.threads, &console);
+      FindHardest(objects, rows, flags.hardest, metric, flags.seed, flags.threads, &console);
+  for (const ScoreRow& row : rows) {
+    if (!row.score) spdlog::warn("not scored: {}: {}", row.object, row.status);
+  }
   if (hardest.empty()) throw InputError("no object scored", flags.inputs.front(), "a closed solid");
   std::vector<std::int64_t> places;
   ScoreTable table;
@@ -104,6 +108,8 @@ void Export(const ExportFlags& flags, const PrintOptions& options,
   }
   const ObjectSource objects(flags.inputs);
   metric_flags.RaiseEffort(objects.size(), &metric);
+  const std::filesystem::path out = flags.out;
+  RequireNotRead(metric_flags.gripper(), {out / kScores, out / kConstants});
   ResultFolder results(flags.out, {"print.csv", {kScores, kConstants}, {"NAME." + flags.format}},
                        objects, flags.overwrite);
   std::vector<std::int64_t> places(static_cast<std::size_t>(objects.size()));

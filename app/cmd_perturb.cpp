@@ -84,10 +84,13 @@ std::vector<PerturbedObject> PerturbAll(std::vector<InputObject> inputs,
 }
 
 void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
-             const std::string& constants) {
+             const std::string& constants, const std::string& gripper) {
   ConsoleObserver console;
   CheckPerturbFolder(flags.inputs, flags.out);
   const ObjectSource source(flags.inputs);
+  for (const std::string& file : PerturbFiles().of_call) {
+    RequireNotRead(gripper, {std::filesystem::path(flags.out) / file});
+  }
   ResultFolder results(flags.out, PerturbFiles(), source, flags.overwrite);
   auto inputs = LoadObjects(source, flags.threads, console.Phase("reading"));
   WarnOfNotes(inputs);
@@ -165,7 +168,8 @@ void AddMethod(CLI::App* perturb, const std::string& name, const std::string& he
       return run(own, metric, arguments...);
     };
     Bind(&table, &settings.metric);
-    Perturb(*flags, settings, "seed = " + std::to_string(flags->seed) + "\n\n" + table.Dump());
+    Perturb(*flags, settings, "seed = " + std::to_string(flags->seed) + "\n\n" + table.Dump(),
+            metric_flags->gripper());
   });
 }
 

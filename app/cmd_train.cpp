@@ -151,10 +151,11 @@ void AddTrainCommand(CLI::App* app) {
                       "same as --set cem.mode=: " + Alternatives(ChoiceNames<EpisodeMode>()));
   CLI::Option* from = command->add_option(
       "--from", flags->start, "same as --set run.start=, and takes model.* from these networks");
-  command->add_flag("--fine-tune", flags->fine_tune,
-                    "train the networks of --from on in episode 0: same as run.fine_tune=true");
+  CLI::Option* fine_tune =
+      command->add_flag("--fine-tune", flags->fine_tune,
+                        "train the networks of --from on in episode 0: same as run.fine_tune=true");
   command->add_flag("--from-scratch", flags->from_scratch, "train episode 0: no run.start")
-      ->excludes(from);
+      ->excludes(from, fine_tune);
   command->callback([flags] {
     TakeConfigFromSettings(flags.get());
     Train(*flags);

@@ -66,8 +66,10 @@ CLI::Validator NumberIn(double low, double high) {
 }
 
 void AddOverwrite(CLI::App* command, bool* overwrite) {
-  command->add_flag("--overwrite", *overwrite,
-                    "replace what an earlier call wrote into --out; other files there stay");
+  command->add_flag(
+      "--overwrite", *overwrite,
+      "replace what an earlier call wrote into --out, and files of the names that this one may "
+      "write; others there stay");
 }
 
 OptionFlags::OptionFlags(CLI::App* command, const OptionTable& table, const std::string& group) {

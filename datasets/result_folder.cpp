@@ -60,15 +60,27 @@ void RequireRemovable(const Paths& paths, const ObjectSource& objects) {
   }
 }
 
+// A file or a link where a folder of results goes: they would land elsewhere, or nowhere.
+void RequireFolders(const fs::path& folder, const Paths& written) {
+  for (const fs::path& path : written) {
+    const fs::path place = folder / path.parent_path();
+    if (!path.has_parent_path() || !IsThere(place)) continue;
+    if (fs::symlink_status(place).type() == fs::file_type::directory) continue;
+    throw InputError("is in the way of a folder", place.string(), "a folder or nothing");
+  }
+}
+
 // Every file that must give way to the call's, the table last.
 Paths OldFiles(const fs::path& folder, const ResultFiles& files, const ObjectSource& objects,
                bool overwrite) {
   if (!fs::exists(folder)) return {};
   Paths written(files.of_call.begin(), files.of_call.end());
   for (std::int64_t i = 0; i < objects.size(); ++i) AddFilesOf(objects.name(i), files, &written);
+  RequireFolders(folder, written);
   Paths old = ThoseThere(folder, written);
-  RequireRemovable(old, objects);
   const bool has_table = IsThere(folder / files.table);
+  RequireRemovable(old, objects);
+  RequireRemovable({folder / files.table}, objects);
   if ((has_table || !old.empty()) && !overwrite) {
     const std::string one =
         has_table ? files.table : old.front().lexically_relative(folder).string();

@@ -58,13 +58,17 @@ std::string PerturbMeansText(const PerturbMeans& means) {
   if (std::isfinite(means.reduction.half_width)) {  // a single object says nothing about the spread
     std::snprintf(interval, sizeof interval, " +-%.1f", means.reduction.half_width);
   }
+  char reduced[96] = "no kappa to reduce";
+  if (std::isfinite(means.reduction.mean)) {
+    std::snprintf(reduced, sizeof reduced, "kappa reduced by %.1f%s %%", means.reduction.mean,
+                  interval);
+  }
   std::snprintf(text, sizeof text,
-                "%d of %d objects perturbed: mean graspability %.5f -> %.5f, kappa reduced by "
-                "%.1f%s %%\n"
+                "%d of %d objects perturbed: mean graspability %.5f -> %.5f, %s\n"
                 "mean over objects: largest turn of a normal %.1f degrees, Hausdorff distance %.2f "
                 "%% of the diagonal",
                 means.ok, means.objects, means.graspability_before, means.graspability_after,
-                means.reduction.mean, interval, means.normal_max_deg, means.hausdorff_pct);
+                reduced, means.normal_max_deg, means.hausdorff_pct);
   return text;
 }
 

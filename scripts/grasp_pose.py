@@ -117,10 +117,14 @@ def arguments(words):
 
 def main(words):
     given = arguments(words)
-    gripper = read_metric(given.metric)["gripper"]
+    constants = read_metric(given.metric)
+    gripper, opening = constants["gripper"], constants["metric"]["jaw_opening"]
     robot_from_object = turned_about_z(given.object_at[:3], given.object_at[3])
     rows = in_metres(read_grasps(given.grasps), given.frame_mesh)
     row = choose(rows, robot_from_object, given.from_above, given.grasp)
+    if float(row["width"]) > 1.001 * opening:
+        sys.exit(f"{given.grasps}: jaws {float(row['width']):g} m apart, which open {opening:g} m: "
+                 "expected metres, or --frame-mesh for a table with --frame mesh")
     grasp = grasp_in_object(row)
     base = times(grasp, base_from_grasp(gripper))
     print(f"grasp {row['grasp']} of {row['object']}: jaws {1000 * float(row['width']):.1f} mm apart, "

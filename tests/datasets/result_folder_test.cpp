@@ -145,6 +145,27 @@ TEST(ResultFolder, AFolderInPlaceOfAFileIsNamedBeforeAnythingGoes) {
   fs::create_directories(folder / "out/mug.stl");
   EXPECT_NE(WhyRefused(folder / "out", objects, true).find("is a folder"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "out/sheet.png"));
+  fs::create_directories(folder / "table/table.csv");
+  EXPECT_NE(WhyRefused(folder / "table", objects, true).find("is a folder"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "table/table.csv"));
+}
+
+TEST(ResultFolder, WhatIsInTheWayOfAFolderIsNamedBeforeAnythingGoes) {
+  const TempFolder folder;
+  const ObjectSource objects = Objects(folder);
+  folder.Write("file/after", "mine");
+  folder.Write("elsewhere/mug.stl", "mine");
+  folder.Write("link/sheet.png", "old");
+  fs::create_directory_symlink(folder / "elsewhere", folder / "link/after");
+  for (const char* out : {"file", "link"}) {
+    for (const bool overwrite : {false, true}) {
+      EXPECT_NE(WhyRefused(folder / out, objects, overwrite).find("is in the way of a folder"),
+                std::string::npos)
+          << out << overwrite;
+    }
+  }
+  EXPECT_EQ(ReadFile(folder / "elsewhere/mug.stl"), "mine");
+  EXPECT_EQ(ReadFile(folder / "link/sheet.png"), "old");
 }
 
 }  // namespace

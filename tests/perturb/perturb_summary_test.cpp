@@ -47,6 +47,12 @@ TEST(PerturbMeans, HaveNoIntervalOfOneObject) {
   EXPECT_NE(PerturbMeansText(means).find("kappa reduced by 75.0 %"), std::string::npos);
 }
 
+TEST(PerturbMeans, OfObjectsThatScoredNothingHaveNoReduction) {
+  const std::string text = PerturbMeansText(MeansOf({RowOf("ok", 0.0, 0.0)}));
+  EXPECT_NE(text.find("graspability 0.00000 -> 0.00000, no kappa to reduce\n"), std::string::npos)
+      << text;
+}
+
 TEST(FailedText, CountsObjectsByTheFirstWordsOfTheirStatus) {
   std::vector<PerturbRow> rows = TwoOfFour();
   rows.push_back(RowOf("after: open: 5 edges", 1.0, 1.0));

@@ -13,7 +13,7 @@ from scripts_path import ROOT
 import draw_grasp
 import grasp_pose
 
-METRIC = "[metric]\nobject_min_extent = {}\n[gripper]\npalm_distance = 0.046\npalm_depth = 0.084\n"
+METRIC = "[metric]\nobject_min_extent = {}\njaw_opening = 0.05\n[gripper]\npalm_distance = 0.046\npalm_depth = 0.084\n"
 HEADER = ("object,grasp,p1x,p1y,p1z,p2x,p2y,p2z,axis_x,axis_y,axis_z,width,robust_quality,approach_x,approach_y,approach_z,"
           "comx,comy,comz,metres_per_unit\n")
 
@@ -78,6 +78,11 @@ class GraspPose(unittest.TestCase):
     def test_a_table_in_the_frame_of_the_mesh_gives_the_same_pose(self):
         in_mm = "a.stl,3,10,40,30,10,0,30,0,-1,0,40,0.002,0,0,-1,0,0,0,0.001"
         self.assertEqual(self.poses(self.write([in_mm]) + ["--frame-mesh"]), self.poses(self.write([self.DOWN])))
+
+    def test_a_table_in_the_frame_of_the_mesh_is_not_taken_for_metres(self):
+        in_mm = "a.stl,3,10,40,30,10,0,30,0,-1,0,40,0.002,0,0,-1,0,0,0,0.001"
+        with self.assertRaisesRegex(SystemExit, "jaws 40 m apart, which open 0.05 m: .*--frame-mesh"):
+            self.poses(self.write([in_mm]))
 
     def test_what_has_no_pose_is_refused(self):
         with self.assertRaisesRegex(SystemExit, "evaluate --true-size"):
