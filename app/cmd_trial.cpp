@@ -11,7 +11,7 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
 #include "antigrasp/datasets/objects.h"
-#include "antigrasp/quality/trial_table.h"
+#include "antigrasp/trial/model_table.h"
 
 namespace antigrasp {
 namespace {

@@ -1,4 +1,4 @@
-#include "antigrasp/quality/trial_table.h"
+#include "antigrasp/trial/model_table.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "antigrasp/quality/trial.h"
+#include "antigrasp/trial/model_trial.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "antigrasp/quality/trial.h"
+#include "antigrasp/trial/model_trial.h"
 
 namespace antigrasp {
 

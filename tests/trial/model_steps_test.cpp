@@ -13,7 +13,7 @@
 #include "antigrasp/quality/graspability.h"
 #include "antigrasp/quality/jaw_closing.h"
 #include "antigrasp/quality/robust_quality.h"
-#include "antigrasp/quality/trial.h"
+#include "antigrasp/trial/model_trial.h"
 #include "tests/quality/option_lines.h"
 #include "tests/support/shapes.h"
 
