@@ -1,0 +1,97 @@
+#include "antigrasp/trial/pad_clip.h"
+
+#include <algorithm>
+
+namespace antigrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+// Metres: a corner this near to the rim is on it.
+constexpr double kOnRim = 1e-9;
+
+// Metres: two corners of a face whose distances from the front face differ by less are level.
+constexpr double kLevel = 1e-9;
+
+// Of a face's normal: less than this towards the pad is along it.
+constexpr double kLooksAtPad = 1e-9;
+
+// A triangle cut by six planes has at most nine corners, rounding aside.
+struct Polygon {
+  std::array<Vector3d, 16> corner;
+  std::size_t size = 0;
+  void Add(const Vector3d& point) {
+    if (size < corner.size()) corner[size++] = point;
+  }
+};
+
+// From the lexicographically first end: the same bits from both faces of an edge.
+Vector3d Cut(Vector3d a, Vector3d b, int axis, double at) {
+  if (std::lexicographical_compare(b.begin(), b.end(), a.begin(), a.end())) std::swap(a, b);
+  Vector3d cut = a + (at - a[axis]) / (b[axis] - a[axis]) * (b - a);
+  cut[axis] = at;
+  return cut;
+}
+
+// Keeps what has sign * coordinate <= sign * at (Sutherland and Hodgman).
+void Clip(int axis, double sign, double at, Polygon* polygon) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon->size; ++i) {
+    const Vector3d& from = polygon->corner[i];
+    const Vector3d& to = polygon->corner[(i + 1) % polygon->size];
+    const bool from_in = sign * from[axis] <= sign * at;
+    const bool to_in = sign * to[axis] <= sign * at;
+    if (from_in) kept.Add(from);
+    if (from_in != to_in) kept.Add(Cut(from, to, axis, at));
+  }
+  *polygon = kept;
+}
+
+// -1, 0 or 1: at which rim of [-half, half].
+double Rim(double value, double half) {
+  if (value >= half - kOnRim) return 1.0;
+  return value <= kOnRim - half ? -1.0 : 0.0;
+}
+
+}  // namespace
+
+void AddPadContacts(const PadPose& pad, double margin, const std::array<Vector3d, 3>& corners,
+                    const Vector3d& normal, std::vector<PatchPoint>* points) {
+  const Vector3d front = pad.Front();
+  const Vector3d low(-2.0 * pad.half[0], -pad.half[1], -pad.half[2]);
+  const Vector3d high(margin, pad.half[1], pad.half[2]);
+  const Vector3d into = -(pad.axes.transpose() * normal);  // the object, pad's frame
+  if (into[0] <= kLooksAtPad) return;
+  const std::array<Vector3d, 3> p{pad.axes.transpose() * (corners[0] - front),
+                                  pad.axes.transpose() * (corners[1] - front),
+                                  pad.axes.transpose() * (corners[2] - front)};
+  const Vector3d least = p[0].cwiseMin(p[1]).cwiseMin(p[2]);
+  const Vector3d most = p[0].cwiseMax(p[1]).cwiseMax(p[2]);
+  if ((least.array() > high.array()).any() || (most.array() < low.array()).any()) return;
+  Polygon polygon;
+  for (const Vector3d& corner : p) polygon.Add(corner);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (most[axis] > high[axis]) Clip(axis, 1.0, high[axis], &polygon);
+    if (least[axis] < low[axis]) Clip(axis, -1.0, low[axis], &polygon);
+  }
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    const Vector3d& q = polygon.corner[i];
+    const Vector3d& before = polygon.corner[(i + polygon.size - 1) % polygon.size];
+    const Vector3d& after = polygon.corner[(i + 1) % polygon.size];
+    Vector3d reach = into;  // as far as the normals of the rim go
+    for (int k = 1; k < 3; ++k) {
+      if (Rim(q[k], pad.half[k]) * into[k] <= 0.0) reach[k] = 0.0;
+    }
+    reach.normalize();
+    const bool lowest = std::min(before[0], after[0]) >= q[0] - kLevel;
+    points->push_back({q.tail<2>(), reach, q[0] * reach[0], lowest});
+  }
+}
+
+SurfaceContact PadContact(const PadPose& pad, const PatchPoint& point) {
+  const Vector3d on_tip(0.0, point.place[0], point.place[1]);
+  return {pad.Front() + pad.axes * (on_tip + 0.5 * point.distance * point.normal),
+          -(pad.axes * point.normal), point.distance};
+}
+
+}  // namespace antigrasp
