@@ -13,17 +13,16 @@ using Eigen::Vector2d;
 using Patch = std::vector<PatchPoint>;
 
 // Metres.
-constexpr double kAsDeep = 1e-9;     // as another one but for rounding
-constexpr double kYields = 20e-6;    // a soft contact, under the load of a grip
-constexpr double kStraight = 1e-6;   // a corner that stands out by less is none
+constexpr double kAsDeep = 1e-9;    // as another one but for rounding
+constexpr double kYields = 20e-6;   // a soft contact, under the load of a grip
+constexpr double kStraight = 1e-6;  // a corner that stands out by less is none
 constexpr double kSamePlace = 20e-6;
 constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
 
 // Total, so that the order in which faces were found says nothing.
 bool Before(const PatchPoint& a, const PatchPoint& b) {
   const auto key = [](const PatchPoint& p) {
-    return std::tie(p.place.x(), p.place.y(), p.distance, p.normal.x(), p.normal.y(),
-                    p.normal.z());
+    return std::tie(p.place.x(), p.place.y(), p.distance, p.normal.x(), p.normal.y(), p.normal.z());
   };
   return key(a) < key(b);
 }
@@ -56,8 +55,7 @@ double StandsOut(const Patch& polygon, std::size_t i) {
   const Vector2d& from = polygon[(i + n - 1) % n].place;
   const Vector2d along = polygon[(i + 1) % n].place - from;
   const double square = along.squaredNorm();
-  const double share =
-      square > 0.0 ? std::clamp((at - from).dot(along) / square, 0.0, 1.0) : 0.0;
+  const double share = square > 0.0 ? std::clamp((at - from).dot(along) / square, 0.0, 1.0) : 0.0;
   return (at - from - share * along).norm();
 }
 
@@ -104,8 +102,7 @@ void AddOutline(const Patch& sorted, const Count& count, std::size_t most, Patch
   Thin(hull.size(), &hull);  // before corners go: what is straight now would stand out then
   Patch outline;
   std::copy_if(hull.begin(), hull.end(), std::back_inserter(outline), [&](const PatchPoint& point) {
-    return !HasNear(*corners, point, kAnyDepth) &&
-           !HasNear(hull, point, point.distance - kAsDeep);
+    return !HasNear(*corners, point, kAnyDepth) && !HasNear(hull, point, point.distance - kAsDeep);
   });
   Thin(most - corners->size(), &outline);
   corners->insert(corners->end(), outline.begin(), outline.end());
@@ -129,8 +126,10 @@ std::vector<PatchPoint> PatchCorners(std::vector<PatchPoint> points, int most) {
   Patch corners;
   AddOutline(points, within(kAsDeep), room, &corners);
   AddOutline(points, bears, room, &corners);
-  AddOutline(points, [](const PatchPoint& point) { return point.lowest; }, room, &corners);
-  AddOutline(points, [](const PatchPoint&) { return true; }, room, &corners);
+  AddOutline(
+      points, [](const PatchPoint& point) { return point.lowest; }, room, &corners);
+  AddOutline(
+      points, [](const PatchPoint&) { return true; }, room, &corners);
   return corners;
 }
 

@@ -11,7 +11,8 @@ struct PatchPoint {
   Eigen::Vector2d place;   // y, z
   Eigen::Vector3d normal;  // unit, into the object
   double distance;
-  bool lowest = true;  // no surface beside it is nearer: a bump's top, a corner, all of a flush face
+  bool lowest =
+      true;  // no surface beside it is nearer: a bump's top, a corner, all of a flush face
 };
 
 // At most `most` of the points, which carry the load and keep the patch's extent. Outlines (corners

@@ -44,9 +44,9 @@ class ContactSolid {
   // Where the front face of a pad touches, as corners of the patch: the surface in front of the
   // rectangle, from the margin ahead to the pad's back, cut out exactly, then PatchCorners. A flat
   // face gives the corners of the polygon that it has in common with the pad however it is cut into
-  // triangles; where the surface bends away the patch ends at the margin. Approximate: of a curved or
-  // bumpy patch a few points stand for all; the sides of the pad touch nothing; where a ridge crosses
-  // the rim the normal is that of one of its two faces.
+  // triangles; where the surface bends away the patch ends at the margin. Approximate: of a curved
+  // or bumpy patch a few points stand for all; the sides of the pad touch nothing; where a ridge
+  // crosses the rim the normal is that of one of its two faces.
   int Touch(const PadPose& pad, double margin, SurfaceContact* out, int most = kMostContacts,
             TouchCache* cache = nullptr) const;
 
@@ -56,10 +56,10 @@ class ContactSolid {
   int TouchPlane(const Eigen::Vector3d& normal, double offset, double margin, SurfaceContact* out,
                  int most = 6) const;
 
-  // Gap between the tip and the solid, infinity beyond `limit`. A sphere's is exact and below 0 (the
-  // depth) where they overlap. A pad's is never more than the gap, equal to it where what is nearest
-  // is a face, of the box or of the mesh, or two edges that cross, and 0 where they overlap: steps of
-  // this length never pass through.
+  // Gap between the tip and the solid, infinity beyond `limit`. A sphere's is exact and below 0
+  // (the depth) where they overlap. A pad's is never more than the gap, equal to it where what is
+  // nearest is a face, of the box or of the mesh, or two edges that cross, and 0 where they
+  // overlap: steps of this length never pass through.
   double Distance(const SpherePose& sphere, double limit) const;
   double Distance(const PadPose& pad, double limit) const;
 

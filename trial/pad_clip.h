@@ -11,10 +11,10 @@ namespace antigrasp {
 
 // Adds the corners of the part of a face that lies in front of the pad's front face, nearer than
 // margin, or inside the pad. Corners and normal of the face in the object's frame, points in the
-// frame of the front face; faces that look away from the pad add nothing. A point's normal is the pad's; on the rim of the front face the face's own,
-// as far as the rim's normals reach (those between the front face and the sides that meet there): a
-// surface that rises beyond the rim is touched by the rim. Bits of a corner that two faces share are
-// the same from both.
+// frame of the front face; faces that look away from the pad add nothing. A point's normal is the
+// pad's; on the rim of the front face the face's own, as far as the rim's normals reach (those
+// between the front face and the sides that meet there): a surface that rises beyond the rim is
+// touched by the rim. Bits of a corner that two faces share are the same from both.
 void AddPadContacts(const PadPose& pad, double margin,
                     const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& normal,
                     std::vector<PatchPoint>* points);

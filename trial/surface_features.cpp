@@ -46,9 +46,9 @@ void SurfaceFeatures::AddFaces(const TriangleMesh& mesh) {
     for (int k = 0; k < 3; ++k) {
       Corner& corner = around_[face.corner[k]];
       if (corner.speaker < 0) corner.speaker = static_cast<std::int32_t>(f);
-      corner.normal += face.normal * CornerAngle(corners_[face.corner[k]],
-                                                 corners_[face.corner[(k + 1) % 3]],
-                                                 corners_[face.corner[(k + 2) % 3]]);
+      corner.normal +=
+          face.normal * CornerAngle(corners_[face.corner[k]], corners_[face.corner[(k + 1) % 3]],
+                                    corners_[face.corner[(k + 2) % 3]]);
     }
   }
   for (Corner& corner : around_) corner.normal.normalize();

@@ -8,8 +8,8 @@
 
 namespace antigrasp {
 
-// Where on the surface a place is. The three are told apart because a nearest point on an edge or at
-// a corner is one only if no face around it comes nearer.
+// Where on the surface a place is. The three are told apart because a nearest point on an edge or
+// at a corner is one only if no face around it comes nearer.
 enum class SurfaceFeature { kFace, kEdge, kCorner };
 
 // The point of one face that is nearest to a place.
@@ -21,9 +21,9 @@ struct Foot {
   std::int32_t index;  // of the face, edge or corner
 };
 
-// The faces, edges and corners of a closed outward mesh with what is around each of them. Bits of an
-// answer do not depend on the face that it was found through. Faces without area are left out: their
-// edges are those of others.
+// The faces, edges and corners of a closed outward mesh with what is around each of them. Bits of
+// an answer do not depend on the face that it was found through. Faces without area are left out:
+// their edges are those of others.
 class SurfaceFeatures {
  public:
   explicit SurfaceFeatures(const TriangleMesh& mesh);

@@ -12,9 +12,7 @@ using Eigen::Vector3d;
 
 constexpr float kNowhere = std::numeric_limits<float>::infinity();
 
-float RoundedDown(double value) {
-  return std::nextafter(static_cast<float>(value), -kNowhere);
-}
+float RoundedDown(double value) { return std::nextafter(static_cast<float>(value), -kNowhere); }
 float RoundedUp(double value) { return std::nextafter(static_cast<float>(value), kNowhere); }
 
 struct Range {
@@ -72,7 +70,8 @@ void TriangleTree::Build(const TriangleMesh& mesh, std::int32_t* first, std::int
     std::int32_t* middle = Halve(centers_, {first, last});
     std::int32_t* quarter = Halve(centers_, {first, middle});
     std::int32_t* three_quarters = Halve(centers_, {middle, last});
-    parts = {{{first, quarter}, {quarter, middle}, {middle, three_quarters}, {three_quarters, last}}};
+    parts = {
+        {{first, quarter}, {quarter, middle}, {middle, three_quarters}, {three_quarters, last}}};
     count = 4;
   }
   for (std::size_t k = 0; k < 4; ++k) {

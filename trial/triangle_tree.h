@@ -15,8 +15,8 @@
 namespace antigrasp {
 
 // Boxes around faces in a tree of four children a node, flat in memory, in float and rounded
-// outward: made for many small questions about one mesh (a rigid body in contact, thousands of steps
-// a second), where Embree's fixed cost of a query and CGAL's exact numbers would dominate.
+// outward: made for many small questions about one mesh (a rigid body in contact, thousands of
+// steps a second), where Embree's fixed cost of a query and CGAL's exact numbers would dominate.
 // Built in O(n log n): 1 ms for 2,500 faces. 28 bytes a face and a third of that again.
 class TriangleTree {
  public:
@@ -62,9 +62,9 @@ class TriangleTree {
     }
   };
 
-  // Calls visit(face) for at least every face nearer than `reach` to the probe, nearest boxes first.
-  // visit returns the reach for what is still to come, never more than before: the same number, or
-  // less once something near was found.
+  // Calls visit(face) for at least every face nearer than `reach` to the probe, nearest boxes
+  // first. visit returns the reach for what is still to come, never more than before: the same
+  // number, or less once something near was found.
   template <typename Probe, typename Visit>
   void Search(const Probe& probe, double reach, const Visit& visit) const {
     if (nodes_.empty()) return;

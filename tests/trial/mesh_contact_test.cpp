@@ -59,9 +59,8 @@ TriangleMesh UShape() {
 // A block whose top is a valley along z with this angle between the normals of its sides.
 TriangleMesh Valley(double degrees) {
   const double rise = 0.02 * std::tan(0.5 * degrees * std::numbers::pi / 180.0);
-  return shapes::Extruded(
-      {{-0.02, -0.01}, {0.02, -0.01}, {0.02, rise}, {0.0, 0.0}, {-0.02, rise}},
-      {{0, 1, 3}, {1, 2, 3}, {0, 3, 4}}, 0.04);
+  return shapes::Extruded({{-0.02, -0.01}, {0.02, -0.01}, {0.02, rise}, {0.0, 0.0}, {-0.02, rise}},
+                          {{0, 1, 3}, {1, 2, 3}, {0, 3, 4}}, 0.04);
 }
 
 TEST(SphereContact, OnAFaceIsOnePointUnderTheCentreAlsoOnTheFacesDiagonal) {
@@ -76,13 +75,11 @@ TEST(SphereContact, OnAFaceIsOnePointUnderTheCentreAlsoOnTheFacesDiagonal) {
 TEST(SphereContact, OnAnEdgeAndAtACornerPointsFromThereToTheCentre) {
   const ContactSolid solid(Block());
   const Vector3d over_edge = Vector3d(1.0, 1.0, 0.0).normalized();
-  const auto edge =
-      Touches(solid, {Vector3d(0.02, 0.015, 0.004) + 0.0051 * over_edge, 0.005});
+  const auto edge = Touches(solid, {Vector3d(0.02, 0.015, 0.004) + 0.0051 * over_edge, 0.005});
   ASSERT_EQ(edge.size(), 1U);
   ExpectContact(edge[0], Vector3d(0.02, 0.015, 0.004) + 0.00005 * over_edge, over_edge, 0.0001);
   const Vector3d over_corner = Vector3d(-1.0, 2.0, -2.0) / 3.0;
-  const auto corner =
-      Touches(solid, {Vector3d(-0.02, 0.015, -0.01) + 0.005 * over_corner, 0.005});
+  const auto corner = Touches(solid, {Vector3d(-0.02, 0.015, -0.01) + 0.005 * over_corner, 0.005});
   ASSERT_EQ(corner.size(), 1U);
   ExpectContact(corner[0], {-0.02, 0.015, -0.01}, over_corner, 0.0);
 }
@@ -140,10 +137,14 @@ TEST(SphereContact, OnASphereOfTrianglesLooksAwayFromItsCentre) {
 }
 
 TEST(SphereContact, DoesNotReachThroughAThinWall) {
-  const auto contacts =
-      Touches(ContactSolid(shapes::Box({0.04, 0.03, 0.0001})), {{0.003, 0.0, 0.00503}, 0.005});
+  // A blade of 12 degrees with its edge along z: the foot on its other side is 5.14 mm away and in
+  // a direction of its own.
+  const double thick = 0.03 * std::tan(12.0 * std::numbers::pi / 180.0);
+  const ContactSolid blade(
+      shapes::Extruded({{0.0, 0.0}, {0.03, -thick}, {0.03, 0.0}}, {{0, 1, 2}}, 0.04));
+  const auto contacts = Touches(blade, {{0.0012, 0.00498, 0.001}, 0.005});
   ASSERT_EQ(contacts.size(), 1U);
-  ExpectContact(contacts[0], {0.003, 0.0, 0.00004}, Vector3d::UnitZ(), -0.00002);
+  ExpectContact(contacts[0], {0.0012, -0.00001, 0.001}, Vector3d::UnitY(), -0.00002);
 }
 
 TEST(SphereContact, WithItsCentreInsidePointsOut) {
@@ -312,8 +313,9 @@ TEST(TableContact, UnderATetrahedronIsAtThreeCornersAndOnItsEdgeAtTwo) {
   const ContactSolid solid(Transformed(shapes::Tetrahedron(), 0.03, Vector3d::Zero()));
   std::array<SurfaceContact, 6> contacts;
   EXPECT_EQ(solid.TouchPlane(Vector3d::UnitZ(), 0.0, kTouchMargin, contacts.data()), 3);
-  EXPECT_EQ(solid.TouchPlane(Vector3d(0.0, 1.0, 1.0).normalized(), 0.0, kTouchMargin, contacts.data()),
-            2);
+  EXPECT_EQ(
+      solid.TouchPlane(Vector3d(0.0, 1.0, 1.0).normalized(), 0.0, kTouchMargin, contacts.data()),
+      2);
 }
 
 TEST(TableContact, UnderARoundCapKeepsItsExtentWithFewPoints) {

@@ -47,8 +47,8 @@ void ExpectPatch(const std::vector<SurfaceContact>& contacts,
   for (const Eigen::Vector2d& place : places) {
     int found = 0;
     for (const SurfaceContact& contact : contacts) {
-      found += (contact.position - Vector3d(0.02 + 0.5 * distance, place.x(), place.y())).norm() <
-               1e-9;
+      found +=
+          (contact.position - Vector3d(0.02 + 0.5 * distance, place.x(), place.y())).norm() < 1e-9;
     }
     EXPECT_EQ(found, 1) << place.transpose();
   }
@@ -91,7 +91,13 @@ TEST(PadContact, OfALargerPadThatIsTurnedIsAtTheEightCornersOfTheCommonPolygon) 
   const double a = 0.02;
   for (const ContactSolid& cube : Cubes()) {
     ExpectPatch(PadTouches(cube, PadFromRight({0.02, 0.0, 0.0}, 0.022, 0.022, 30.0)),
-                {{a, near}, {far, a}, {-near, a}, {-a, far}, {-a, -near}, {-far, -a}, {near, -a},
+                {{a, near},
+                 {far, a},
+                 {-near, a},
+                 {-a, far},
+                 {-a, -near},
+                 {-far, -a},
+                 {near, -a},
                  {a, -far}},
                 0.0);
   }
