@@ -29,6 +29,20 @@ Handle StringMemoryType(const Handle& file_type, bool variable) {
   return type;
 }
 
+// The index of chunks grows with the set, and by default the library keeps up to 32 MB of it. What
+// is read or written grid by grid needs the way from its root to one leaf.
+void KeepFewIndexNodes(hid_t access) {
+  H5AC_cache_config_t cache{};
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  H5Pget_mdc_config(access, &cache);
+  cache.set_initial_size = true;
+  cache.initial_size = cache.min_size = cache.max_size = 1 << 18;
+  cache.incr_mode = H5C_incr__off;
+  cache.flash_incr_mode = H5C_flash_incr__off;
+  cache.decr_mode = H5C_decr__off;
+  H5Pset_mdc_config(access, &cache);
+}
+
 // Strings of either kind; `read` fills a buffer of the given memory type.
 template <typename Read>
 std::optional<std::vector<std::string>> ReadStringsOf(const Handle& file_type, const Handle& space,
@@ -131,7 +145,9 @@ Hdf5File::~Hdf5File() {
 std::unique_ptr<Hdf5File> Hdf5File::Open(const std::filesystem::path& path) {
   const Hdf5Lock lock;
   auto impl = std::make_unique<Impl>();
-  impl->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  KeepFewIndexNodes(access.get());
+  impl->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
   if (!impl->file) return nullptr;
   return std::unique_ptr<Hdf5File>(new Hdf5File(std::move(impl)));
 }
@@ -142,6 +158,7 @@ std::unique_ptr<Hdf5File> Hdf5File::Create(const std::filesystem::path& path) {
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.get(), false);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  KeepFewIndexNodes(access.get());
   // The file format of HDF5 1.8 (2008) has check sums on its metadata: in the default one a damaged
   // byte can lead the library out of its buffers. In later ones chunks have an index that readers
   // besides the library do not know.

@@ -3,17 +3,22 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/parallel.h"
 #include "antigrasp/core/rng.h"
 #include "antigrasp/datasets/shape_set.h"
+#include "tests/support/child_process.h"
 #include "tests/support/temp_folder.h"
 
 namespace antigrasp {
 namespace {
 
+using shapes::ChildProcess;
 using shapes::TempFolder;
 
 // Values that differ from node to node and from grid to grid, and do not compress well.
@@ -106,6 +111,43 @@ TEST(ShapeStream, ADamagedGridIsNamedWhenItIsReadAndTheOthersAreThere) {
   }
   EXPECT_EQ(good, 8);
   EXPECT_EQ(bad, 1);
+}
+
+// Most memory that a process of its own held for the work, in KB; this one's own included.
+long PeakOf(const std::function<void()>& work) {
+  const ChildProcess child(work);
+  EXPECT_TRUE(child.alive());
+  std::ifstream status("/proc/" + std::to_string(child.pid()) + "/status");
+  for (std::string word; status >> word;) {
+    long peak = 0;
+    if (word == "VmHWM:" && status >> peak) return peak;
+  }
+  return -1;
+}
+
+TEST(ShapeStream, TheIndexOfManyGridsIsNotKeptInMemory) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "what is freed stays in memory for a while";
+#endif
+  const TempFolder folder;
+  const auto write = [&](const std::string& name, int count) {
+    return PeakOf([&folder, name, count] {
+      const SdfGrid grid = UnitCubeGrid(2);
+      ShapeSetWriter writer(folder / name, {.kind = "prisms"}, static_cast<std::size_t>(count));
+      for (int i = 0; i < count; ++i) writer.Add("", grid);
+      writer.Commit();
+    });
+  };
+  const auto read = [&](const std::string& name) {
+    return PeakOf([path = folder / name] {
+      const ShapeSetReader reader(path);
+      for (int i = 0; i < reader.info().count; i += 10) reader.Grid(i);
+    });
+  };
+  const long few_written = write("few.h5", 100), many_written = write("many.h5", 20000);
+  const long few_read = read("few.h5"), many_read = read("many.h5");
+  EXPECT_LT(many_written - few_written, 6000);  // 9,900 with all of the index, else 3,800
+  EXPECT_LT(many_read - few_read, 4000);        // 7,700 and 2,000
 }
 
 }  // namespace
