@@ -137,13 +137,14 @@ void Export(const ExportFlags& flags, const PrintOptions& options,
         const PrintCheck& check = item.printed.check;
         if (flags.true_size) sizes.Add(item.printed.name, check.size_mm / check.mm_per_unit);
         solids.Add(std::move(item.printed));
+        results.AddToTable(solids.TakeText());
       },
       console.Phase("checking"));
   if (solids.size() == 0)
     throw InputError(refusals.front(), flags.inputs.front(), "a closed solid");
   for (const std::string& refusal : refusals) spdlog::warn("not exported: {}", refusal);
   for (const std::string& size : sizes.Texts()) spdlog::warn("{}", size);
-  results.Commit(solids.Csv());
+  results.Commit(solids.TakeText());
   std::printf("%zu of %zu objects in %s, ", solids.size(), solids.size() + refusals.size(),
               flags.out.c_str());
   if (flags.true_size) {

@@ -41,11 +41,12 @@ void RemeshFile(const RemeshFlags& flags) {
         csv.Numbers({Volume(object.mesh), SurfaceArea(object.mesh)});
         const std::string file = FileNameOf(object.name) + "." + flags.format;
         csv.Text(object.ok() ? file : "").EndRow();
+        results.AddToTable(csv.TakeText());
         statuses.push_back(object.status);
         if (object.ok()) WriteMesh(results.path() / file, object.mesh);
       },
       console.Phase("remeshing"));
-  results.Commit(csv.text());
+  results.Commit(csv.TakeText());
   std::printf("%s\n", CountByStatus(statuses).c_str());
   if (std::find(statuses.begin(), statuses.end(), "ok") == statuses.end()) {
     throw RuntimeFailure("no grid gave a mesh: " + results.table().string() + " says why");

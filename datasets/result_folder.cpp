@@ -2,7 +2,6 @@
 
 #include <system_error>
 
-#include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/csv_reader.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/object_names.h"
@@ -104,8 +103,14 @@ ResultFolder::ResultFolder(const fs::path& folder, const ResultFiles& files,
       old_(OldFiles(folder, files, objects, overwrite)),
       staged_(folder) {}
 
-void ResultFolder::Commit(const std::string& table_text) {
-  WriteFileAtomic(path() / table_, table_text);  // a full disk is met before anything goes
+void ResultFolder::AddToTable(std::string_view text) {
+  if (!table_file_) table_file_.emplace(path() / table_);
+  table_file_->Append(text);
+}
+
+void ResultFolder::Commit(std::string_view rest_of_table) {
+  AddToTable(rest_of_table);
+  table_file_->Commit();  // a full disk is met before anything goes
   for (const fs::path& old : old_) {
     std::error_code error;
     fs::remove(old, error);

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/staged_folder.h"
 #include "antigrasp/datasets/objects.h"
 
@@ -31,8 +34,10 @@ class ResultFolder {
                const ObjectSource& objects, bool overwrite);
   // Where the files are to be written, as if it were the folder.
   const std::filesystem::path& path() const { return staged_.path(); }
+  // More of the table, which need not fit into memory. RuntimeFailure when the disk is full.
+  void AddToTable(std::string_view text);
   // Old files go, new ones appear, the table last. RuntimeFailure when the disk is full.
-  void Commit(const std::string& table_text);
+  void Commit(std::string_view rest_of_table);
   std::filesystem::path table() const { return folder_ / table_; }  // its final place
 
  private:
@@ -40,6 +45,7 @@ class ResultFolder {
   std::string table_;
   std::vector<std::filesystem::path> old_;  // the table last
   StagedFolder staged_;
+  std::optional<AtomicFile> table_file_;  // in the staged folder; goes before it
 };
 
 }  // namespace antigrasp

@@ -19,8 +19,9 @@ class PrintTable {
   explicit PrintTable(const PrintOptions& options);
   void Add(PrintedObject object);
   std::size_t size() const { return size_; }
-  // print.csv, columns as docs/formats.md says, one row per object.
-  const std::string& Csv() const { return csv_.text(); }
+  // print.csv, columns as docs/formats.md says, one row per object: what was added since the last
+  // call, the header before the first row.
+  std::string TakeText() { return csv_.TakeText(); }
   // One line an object for a few objects, and totals.
   std::string Summary() const;
 

@@ -51,6 +51,27 @@ void Fill(const TempFolder& folder, const ObjectSource& objects, const std::stri
   results.Commit("object\nmug.obj\nbox/lid.obj\n");
 }
 
+TEST(ResultFolder, ATableInPiecesIsThatOfOnePieceAndThereAtTheEndAlone) {
+  const TempFolder folder;
+  const ObjectSource objects = Objects(folder);
+  Fill(folder, objects, "old");
+  {
+    ResultFolder results(folder / "out", kFiles, objects, true);
+    results.AddToTable("object\nmug.obj");
+    results.AddToTable("");
+    results.AddToTable("\nsecond\n");
+    EXPECT_EQ(ReadFile(results.table()), "object\nmug.obj\nbox/lid.obj\n");
+    results.Commit("last\n");
+  }
+  EXPECT_EQ(FilesUnder(folder / "out"), (std::set<std::string>{"table.csv"}));
+  EXPECT_EQ(ReadFile(folder / "out/table.csv"), "object\nmug.obj\nsecond\nlast\n");
+  {
+    ResultFolder results(folder / "out", kFiles, objects, true);
+    results.AddToTable("of a call that fails\n");
+  }
+  EXPECT_EQ(ReadFile(folder / "out/table.csv"), "object\nmug.obj\nsecond\nlast\n");
+}
+
 TEST(ResultFolder, IsUsedWhenItHoldsTheTableOrAFileThatTheCallCouldWrite) {
   for (const char* file :
        {"table.csv", "sheet.png", "mug.stl", "box_lid.stl", "after/box_lid.stl"}) {
