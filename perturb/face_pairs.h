@@ -81,7 +81,13 @@ struct FacePair {
 // all pairs on bottle-like objects at mu = 0.5).
 std::vector<FacePair> AntipodalPairs(const TriangleMesh& mesh, const PairLimits& limits);
 
-// |F_a| without listing it: whole blocks are only counted.
-std::int64_t CountAntipodalPairs(const TriangleMesh& mesh, const PairLimits& limits);
+// |F_a| without listing it: whole blocks are only counted. What is left undecided grows with
+// n^1.5 and is nearly all of the time (5 s for 100,000 faces, minutes for a million). Of a mesh
+// with more than `most_counted` faces it is therefore estimated, by two pairs of any two leaves of
+// n / 8,192 faces: O(n log n), 3 s for a million. Within 0.02 % on round meshes of 100,000; the
+// same for the same mesh.
+inline constexpr std::size_t kMostCounted = 65536;
+std::int64_t CountAntipodalPairs(const TriangleMesh& mesh, const PairLimits& limits,
+                                 std::size_t most_counted = kMostCounted);
 
 }  // namespace antigrasp

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "antigrasp/core/rng.h"
 #include "antigrasp/perturb/face_pairs.h"
 
 namespace antigrasp {
@@ -14,6 +15,8 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
 constexpr std::int32_t kLeafSize = 8;
+// Of two larger leaves as many pairs are drawn.
+constexpr int kDraws = 2;
 // Rounding in the angles of the bounds; what is nearer to the limit is looked at more closely.
 constexpr double kAngleSlack = 1e-7;
 
@@ -41,8 +44,11 @@ struct Node {
 
 class PairTree {
  public:
-  PairTree(const TriangleMesh& mesh, const PairLimits& limits)
-      : test_(limits), psi_(limits.cone_angle), max_width_(test_.max_width()) {
+  PairTree(const TriangleMesh& mesh, const PairLimits& limits, std::int32_t leaf_size = kLeafSize)
+      : test_(limits),
+        psi_(limits.cone_angle),
+        max_width_(test_.max_width()),
+        leaf_size_(leaf_size) {
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
       const FaceShape shape(mesh, f);
       if (!shape.has_area()) continue;
@@ -57,10 +63,10 @@ class PairTree {
     Split(0, 0, static_cast<std::int32_t>(shapes_.size()));
   }
 
-  // Calls block(x, y) for two nodes all of whose pairs are antipodal and pair(i, j) for single
-  // faces (all in the tree's order).
-  template <typename Block, typename Pair>
-  void Visit(const Block& block, const Pair& pair) const {
+  // Calls block(x, y) for two nodes all of whose pairs are antipodal and leaves(x, y) for two
+  // leaves that may hold such pairs and others, or twice for one leaf.
+  template <typename Block, typename Leaves>
+  void Visit(const Block& block, const Leaves& leaves) const {
     if (shapes_.empty()) return;
     std::vector<std::pair<std::int32_t, std::int32_t>> stack{{0, 0}};
     while (!stack.empty()) {
@@ -70,7 +76,7 @@ class PairTree {
       if (x == y) {
         if (2.0 * a.most.angle < kPi) continue;  // no two normals are opposite enough
         if (a.left < 0) {
-          VisitLeaves(a, b, pair);
+          leaves(a, b);
         } else {
           stack.insert(stack.end(),
                        {{a.left, a.left}, {a.left + 1, a.left + 1}, {a.left, a.left + 1}});
@@ -82,13 +88,37 @@ class PairTree {
       if (verdict == Verdict::kAll) {
         block(a, b);
       } else if (a.left < 0 && b.left < 0) {
-        VisitLeaves(a, b, pair);
+        leaves(a, b);
       } else if (b.left < 0 || (a.left >= 0 && Size(a) > Size(b))) {
         stack.insert(stack.end(), {{a.left, y}, {a.left + 1, y}});
       } else {
         stack.insert(stack.end(), {{x, b.left}, {x, b.left + 1}});
       }
     }
+  }
+
+  // Calls pair(i, j) for the antipodal faces of two leaves, in the tree's order.
+  template <typename Pair>
+  void VisitPairs(const Node& a, const Node& b, const Pair& pair) const {
+    for (std::int32_t i = a.first; i < a.first + a.count; ++i) {
+      for (std::int32_t j = a.first == b.first ? i + 1 : b.first; j < b.first + b.count; ++j) {
+        if (test_(shapes_[i], shapes_[j])) pair(i, j);
+      }
+    }
+  }
+
+  // How many pairs of two leaves are antipodal, by a few of them.
+  std::int64_t EstimatePairs(const Node& a, const Node& b, RngStream* rng) const {
+    const auto draw = [&](const Node& node) {
+      return node.first +
+             static_cast<std::int32_t>(rng->Below(static_cast<std::uint64_t>(node.count)));
+    };
+    int found = 0;
+    for (int k = 0; k < kDraws; ++k) {
+      const std::int32_t i = draw(a), j = draw(b);
+      if (test_(shapes_[i], shapes_[j])) ++found;
+    }
+    return std::int64_t{found} * a.count * b.count / kDraws;
   }
 
   std::int32_t FaceAt(std::int32_t place) const { return faces_[place]; }
@@ -127,15 +157,6 @@ class PairTree {
     return all ? Verdict::kAll : Verdict::kSome;
   }
 
-  template <typename Pair>
-  void VisitLeaves(const Node& a, const Node& b, const Pair& pair) const {
-    for (std::int32_t i = a.first; i < a.first + a.count; ++i) {
-      for (std::int32_t j = a.first == b.first ? i + 1 : b.first; j < b.first + b.count; ++j) {
-        if (test_(shapes_[i], shapes_[j])) pair(i, j);
-      }
-    }
-  }
-
   Node Bound(std::int32_t first, std::int32_t count) const {
     Node node;
     node.first = first;
@@ -164,7 +185,7 @@ class PairTree {
   // Halves along the widest of six coordinates, place and normal: a box's sides part first.
   void Split(std::int32_t index, std::int32_t first, std::int32_t count) {
     nodes_[index] = Bound(first, count);
-    if (count <= kLeafSize) return;
+    if (count <= leaf_size_) return;
     using Key = Eigen::Matrix<double, 6, 1>;
     const auto key = [&](const FaceShape& shape) {
       Key k;
@@ -208,6 +229,7 @@ class PairTree {
 
   AntipodalTest test_;
   double psi_, max_width_;
+  std::int32_t leaf_size_;
   std::vector<FaceShape> shapes_;    // in the tree's order
   std::vector<std::int32_t> faces_;  // and their numbers in the mesh
   std::vector<Node> nodes_;
@@ -228,16 +250,27 @@ std::vector<FacePair> AntipodalPairs(const TriangleMesh& mesh, const PairLimits&
       for (std::int32_t j = b.first; j < b.first + b.count; ++j) add(i, j);
     }
   };
-  tree.Visit(add_block, add);
+  tree.Visit(add_block, [&](const Node& a, const Node& b) { tree.VisitPairs(a, b, add); });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 
-std::int64_t CountAntipodalPairs(const TriangleMesh& mesh, const PairLimits& limits) {
-  const PairTree tree(mesh, limits);
+std::int64_t CountAntipodalPairs(const TriangleMesh& mesh, const PairLimits& limits,
+                                 std::size_t most_counted) {
+  const auto parts = static_cast<std::int32_t>(std::max<std::size_t>(1, most_counted / kLeafSize));
+  const auto faces = static_cast<std::int32_t>(mesh.faces.size());
+  const bool all = mesh.faces.size() <= most_counted;
+  const PairTree tree(mesh, limits, all ? kLeafSize : faces / parts + 1);
+  RngStream rng(0, "antipodal pairs");
   std::int64_t count = 0;
   tree.Visit([&](const Node& a, const Node& b) { count += std::int64_t{a.count} * b.count; },
-             [&](std::int32_t, std::int32_t) { ++count; });
+             [&](const Node& a, const Node& b) {
+               if (all || a.first == b.first) {
+                 tree.VisitPairs(a, b, [&](std::int32_t, std::int32_t) { ++count; });
+               } else {
+                 count += tree.EstimatePairs(a, b, &rng);
+               }
+             });
   return count;
 }
 
