@@ -12,6 +12,7 @@
 #include "antigrasp/report/objects_report.h"
 #include "antigrasp/report/page/page.h"
 #include "antigrasp/report/page/report_template.h"
+#include "antigrasp/report/page/trial_folder.h"
 #include "antigrasp/report/perturbed_report.h"
 #include "antigrasp/report/print_report.h"
 #include "antigrasp/report/run_report.h"
@@ -21,7 +22,7 @@ namespace {
 
 struct ReportFlags {
   ReportSettings settings;
-  std::string out, title;
+  std::string out, title, trials;
   double size_mm = 60.0;
 };
 
@@ -55,8 +56,16 @@ std::string TitleOf(const std::vector<std::string>& inputs) {
 void WriteReport(const ReportFlags& flags, bool metric_given) {
   const AtomicFile probe(flags.out);  // refuses an unwritable target before the work
   for (const std::string& read : flags.settings.inputs) RequireApart({read, flags.out});
+  TrialsByObject trials;
+  if (!flags.trials.empty()) {
+    for (const char* name : {"trials.csv", "executions.csv", "replays.json"}) {
+      RequireApart({std::filesystem::path(flags.trials) / name, flags.out});
+    }
+    trials = ReadTrials(flags.trials);
+  }
   ConsoleObserver console;
   Report report = Collect(flags.settings, metric_given, &console);
+  if (!flags.trials.empty()) AddTrials(trials, flags.trials, &report);
   AddPrintChecks(flags.size_mm, flags.settings.threads, &console, &report);
   report.title = flags.title.empty() ? TitleOf(flags.settings.inputs) : flags.title;
   report.provenance.emplace_back("report made by",
@@ -85,6 +94,9 @@ void AddReportCommand(CLI::App* app) {
                    "and scores of evaluate")
       ->required();
   command->add_option("--out", flags->out, "the page (HTML)")->required();
+  command->add_option("--trials", flags->trials,
+                      "a folder of antigrasp trial: what simulated executions say of the objects, "
+                      "and replays of them");
   command->add_option("--title", flags->title, "of the page; without it, the inputs");
   command
       ->add_option(

@@ -133,6 +133,12 @@ Json ObjectJson(const ReportObject& object, const EncodedObject& encoded, Blob* 
   }
   json["numbers"] = PairsJson(object.numbers);
   json["print"] = object.print ? PrintJson(*object.print) : Json();
+  if (object.trials) {
+    Json& trials = json["trials"] = TrialsJson(*object.trials);
+    for (std::size_t i = 0; i < object.trials->replays.size(); ++i) {
+      trials["replays"][i]["frames"] = blob->Append(object.trials->replays[i].frames);
+    }
+  }
   return json;
 }
 

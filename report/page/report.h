@@ -42,6 +42,33 @@ struct ReportOriginal {
   ReportShape shape;
 };
 
+// What a simulation says about the object under one protocol.
+struct ReportTrialSeries {
+  std::string protocol;
+  bool before = false;  // of the original, not of the object
+  double friction = 0.0;
+  double held = 0.0, low = 0.0, high = 0.0;  // share of executions, its 95 % interval
+};
+
+struct ReportTrialGrasp {
+  std::size_t series = 0;  // index into ReportTrials::series
+  int grasp = 0;
+  double quality = 0.0;  // robust
+  int held = 0, executions = 0;
+  std::vector<std::pair<std::string, int>> outcomes;  // words and counts, in order of appearance
+};
+
+// An execution to look at, as JSON texts of replays.json: its keys but object and frames; frames.
+struct ReportReplay {
+  std::string keys, frames;
+};
+
+struct ReportTrials {
+  std::vector<ReportTrialSeries> series;
+  std::vector<ReportTrialGrasp> grasps;
+  std::vector<ReportReplay> replays;
+};
+
 struct ReportObject {
   std::string name;
   std::size_t group = 0;      // index into Report::groups
@@ -52,6 +79,7 @@ struct ReportObject {
   std::optional<ReportOriginal> original;
   std::vector<LabelledText> numbers;
   std::optional<ReportPrint> print;
+  std::optional<ReportTrials> trials = {};
 };
 
 // A stage of a run in the charts.

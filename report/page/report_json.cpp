@@ -116,6 +116,32 @@ Json PrintJson(const ReportPrint& print) {
   return json;
 }
 
+Json TrialsJson(const ReportTrials& trials) {
+  Json json = {{"series", Json::array()}, {"grasps", Json::array()}, {"replays", Json::array()}};
+  for (const ReportTrialSeries& series : trials.series) {
+    json["series"].push_back({{"protocol", series.protocol},
+                              {"side", series.before ? "before" : "after"},
+                              {"friction", series.friction},
+                              {"held", Rounded(series.held)},
+                              {"low", Rounded(series.low)},
+                              {"high", Rounded(series.high)}});
+  }
+  for (const ReportTrialGrasp& grasp : trials.grasps) {
+    Json outcomes = Json::array();
+    for (const auto& [word, count] : grasp.outcomes) outcomes.push_back(Json::array({word, count}));
+    json["grasps"].push_back({{"series", grasp.series},
+                              {"grasp", grasp.grasp},
+                              {"quality", Rounded(grasp.quality)},
+                              {"held", grasp.held},
+                              {"executions", grasp.executions},
+                              {"outcomes", outcomes}});
+  }
+  for (const ReportReplay& replay : trials.replays) {
+    json["replays"].push_back(Json::parse(replay.keys));
+  }
+  return json;
+}
+
 Json HeadJson(const Report& report) {
   Json json = {{"format", "antigrasp.report"},
                {"version", kVersion},

@@ -337,6 +337,28 @@ TEST(ReportCli, ShowsPerturbedObjectsBesideTheirOriginals) {
   EXPECT_TRUE(Mentions(less["missing"], "ball.stl has no mesh"));
 }
 
+TEST(ReportCli, ShowsTrialsBesideTheObjectsOfTheirNames) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteMesh(folder / "ball.stl", shapes::Sphere(1.0, 2));
+  folder.Write("trials/trials.csv",
+               "object,protocol,held,held_low,held_high\nball,paper,0.75,0.5,0.875\n");
+  folder.Write("trials/executions.csv",
+               "object,protocol,grasp,robust_quality,outcome\nball,paper,3,0.002,slipped\n");
+  const json data =
+      ReportOf(dir + "ball.stl" + kQuick + "--trials " + dir + "trials", folder / "r.html");
+  const json& trials = data["objects"][0]["trials"];
+  EXPECT_EQ(trials["series"][0]["held"], 0.75);
+  EXPECT_EQ(trials["grasps"][0]["outcomes"], json::parse(R"([["slipped", 1]])"));
+  EXPECT_FALSE(Mentions(data["missing"], "trials"));
+  ExpectRefused("report " + dir + "ball.stl --out " + dir + "no.html --trials " + dir,
+                "no trials.csv");
+  ExpectRefused(
+      "report " + dir + "ball.stl --trials " + dir + "trials --out " + dir + "trials/trials.csv",
+      "trials.csv");
+  EXPECT_FALSE(fs::exists(folder / "no.html"));
+}
+
 TEST(ReportCli, RefusesBadInputInOneLineAndWritesNothing) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/", out = " --out " + dir + "r.html";

@@ -5,6 +5,7 @@ import { h } from "./dom";
 import { galleryPage } from "./pages/gallery";
 import { objectPage } from "./pages/object";
 import { overviewPage } from "./pages/overview";
+import { replayPage } from "./pages/replay";
 import { type Page, parseRoute } from "./router";
 
 const KINDS = { run: "Training run", perturbed: "Perturbed objects", objects: "Scored objects" };
@@ -26,7 +27,7 @@ function pageFor(report: Report): Page {
   if (route.page === "gallery") return galleryPage(report);
   if (route.page === "overview") return overviewPage(report);
   if (route.index >= report.objects.length) return message(`This report has no object ${route.index}.`);
-  return objectPage(report, route.index);
+  return route.page === "replay" ? replayPage(report, route.index) : objectPage(report, route.index);
 }
 
 function header(report: Report): { element: HTMLElement; mark: () => void } {

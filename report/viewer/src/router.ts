@@ -7,16 +7,22 @@ export interface Page {
   dispose?: () => void;
 }
 
-export type Route = { page: "overview" } | { page: "gallery" } | { page: "object"; index: number };
+export type Route = { page: "overview" } | { page: "gallery" } | { page: "object" | "replay"; index: number };
 
 export function parseRoute(hash: string): Route {
   const path = hash.replace(/^#\/?/, "");
   if (path === "gallery") return { page: "gallery" };
   const object = /^object\/(\d+)$/.exec(path);
   if (object) return { page: "object", index: Number(object[1]) };
+  const replay = /^object\/(\d+)\/replay$/.exec(path);
+  if (replay) return { page: "replay", index: Number(replay[1]) };
   return { page: "overview" };
 }
 
 export function objectLink(index: number): string {
   return `#/object/${index}`;
+}
+
+export function replayLink(index: number): string {
+  return `${objectLink(index)}/replay`;
 }

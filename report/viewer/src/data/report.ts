@@ -1,6 +1,8 @@
 // The report as the binary writes it (report/*_report.cpp). null stands for a number that does not exist: NaN,
 // not measured, not finished. Keys that are absent mean "not there"; unknown ones are ignored.
 
+import type { Trials } from "./trials";
+
 export type Num = number | null;
 /** Byte offset and length of a part of the blob. */
 export type Part = [number, number];
@@ -59,6 +61,7 @@ export interface ObjectRecord extends Shape {
   pair?: Pair | null;
   numbers?: [string, string][];
   print?: PrintCheck | null;
+  trials?: Trials | null;
 }
 
 export interface Stage {

@@ -14,6 +14,7 @@ import { graspControls } from "./object_grasps";
 import { objectButtons, objectHead } from "./object_head";
 import { metricTable, numbersTable, printTable } from "./object_numbers";
 import { sectionFigure } from "./object_section";
+import { trialsBox } from "./object_trials";
 
 interface Side {
   shape: Shape;
@@ -152,7 +153,7 @@ export function objectPage(report: Report, index: number): Page {
   const object = report.objects[index];
   const sides = sidesOf(object);
   const head = objectHead(report, object, index);
-  const tables = [metricTable(object), numbersTable(object), printTable(object)];
+  const tables = [metricTable(object), trialsBox(object, index), numbersTable(object), printTable(object)];
   if (!sides.length) {
     const why = object.mesh ? "The mesh of this object cannot be decoded." : "This object has no mesh.";
     const notice = h("p", { class: "notice" }, why);

@@ -2,7 +2,8 @@ import type { ObjectRecord, Score } from "../data/report";
 import { h } from "../dom";
 import { count, fixed, known, milli, MILLI_UNIT, NONE, percent } from "../format";
 
-function rowsOf(rows: [string, ...string[]][], header: string[] | null): HTMLElement {
+/** Rows of a label and its numbers, in a column each where there is a header. */
+export function rowsOf(rows: [string, ...string[]][], header: string[] | null): HTMLElement {
   return h(
     "table",
     { class: header ? "numbers pair" : "numbers" },
