@@ -204,16 +204,15 @@ TEST(AntipodalPairs, TheTreeFindsWhatAllPairsFind) {
 
 TEST(AntipodalPairs, OfMoreFacesThanAreCountedTheyAreEstimated) {
   const TriangleMesh mesh = RippledSolid(39);  // 5,928 faces
-  for (const PairLimits& limits : {Cone(0.46), PairLimits{0.46, 0.095}}) {
-    const std::int64_t all = CountAntipodalPairs(mesh, limits, 5928);
-    EXPECT_EQ(all, std::ssize(AntipodalPairs(mesh, limits)));
-    const std::int64_t estimate = CountAntipodalPairs(mesh, limits, 4000);
-    EXPECT_NE(estimate, all);
-    EXPECT_NEAR(static_cast<double>(estimate) / static_cast<double>(all), 1.0, 0.01);
-    EXPECT_EQ(CountAntipodalPairs(mesh, limits, 4000), estimate);
-    const std::int64_t coarse = CountAntipodalPairs(mesh, limits, 400);
-    EXPECT_NEAR(static_cast<double>(coarse) / static_cast<double>(all), 1.0, 0.06);
-  }
+  const PairLimits limits = Cone(0.46);
+  const std::int64_t all = CountAntipodalPairs(mesh, limits, 5928);
+  EXPECT_EQ(all, std::ssize(AntipodalPairs(mesh, limits)));
+  const std::int64_t estimate = CountAntipodalPairs(mesh, limits, 4000);
+  EXPECT_NE(estimate, all);
+  EXPECT_NEAR(static_cast<double>(estimate) / static_cast<double>(all), 1.0, 0.01);
+  EXPECT_EQ(CountAntipodalPairs(mesh, limits, 4000), estimate);
+  const std::int64_t coarse = CountAntipodalPairs(mesh, limits, 400);
+  EXPECT_NEAR(static_cast<double>(coarse) / static_cast<double>(all), 1.0, 0.06);
 }
 
 TEST(AntipodalPairs, DoNotDependOnWhereTheObjectIsOrHowLarge) {
