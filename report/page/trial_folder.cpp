@@ -69,8 +69,8 @@ void ReadShares(const fs::path& path, TrialsByObject* trials) {
     const std::size_t before = of_object.series.size();
     const std::size_t index = SeriesOf(rows, &of_object);
     if (index < before) {
-      throw InputError(rows.object() + " under " + rows.protocol() + " once more", rows.csv.Where(),
-                       "one row for an object, protocol and side");
+      throw InputError(rows.object() + " under " + rows.protocol() + " once more",
+                       rows.csv.Where(), "one row for an object, protocol and side");
     }
     ReportTrialSeries& series = of_object.series[index];
     series.held = rows.csv.NumberOrGap(held);
@@ -160,8 +160,8 @@ void AddTrials(const TrialsByObject& trials, const std::string& folder, Report* 
   }
   if (without > 0) {
     report->missing.push_back(std::to_string(without) + " of " +
-                              std::to_string(report->objects.size()) +
-                              " objects have no trials in " + folder + ".");
+                              std::to_string(report->objects.size()) + " objects have no trials in " +
+                              folder + ".");
   }
 }
 

@@ -7,7 +7,6 @@
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/report/page/payload.h"
-#include "antigrasp/trial/replay_file.h"
 #include "tests/support/temp_folder.h"
 
 namespace antigrasp {
@@ -135,25 +134,6 @@ TEST_F(TrialFolder, PutsReplaysIntoThePageAsTheyAre) {
   EXPECT_EQ(replay, original);
 }
 
-TEST_F(TrialFolder, ReadsTheReplaysThatATrialWrites) {
-  Replay replay;
-  replay.object = "mug";
-  replay.pad = true;
-  for (const double seconds : {0.5, 0.75}) {
-    ReplayMoment moment;
-    moment.seconds = seconds;
-    moment.tips = {-Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitX()};
-    moment.forces.emplace_back(Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY());
-    replay.moments.push_back(moment);
-  }
-  WriteReplays(folder_ / "replays.json", {replay, replay});
-  const TrialsByObject trials = ReadTrials(Path());
-  ASSERT_EQ(trials.at("mug").replays.size(), 2U);
-  const TrialJson frames = TrialJson::parse(trials.at("mug").replays[1].frames);
-  EXPECT_EQ(frames[1]["t"], 0.75);
-  EXPECT_EQ(frames[1]["forces"], TrialJson::parse("[[1, 0, 0, 0, 1, 0]]"));
-}
-
 TEST_F(TrialFolder, RefusesAFolderWithoutItsTables) {
   std::filesystem::remove(folder_ / "executions.csv");
   EXPECT_EQ(MessageOf(), "no executions.csv (" + Path() +
@@ -187,8 +167,7 @@ TEST_F(TrialFolder, SaysWhereAReplayIsNotAsItShouldBe) {
             "replays[0].frames[1].t = 0.25" + file + "a time after the frame before");
   EXPECT_EQ(MessageWith("\"sphere\"", "\"cone\""),
             "replays[0].tip.kind = \"cone\"" + file + "\"sphere\" or \"pad\"");
-  EXPECT_EQ(MessageWith("0.001", "0"),
-            "replays[0].metres_per_unit = 0" + file + "a number above 0");
+  EXPECT_EQ(MessageWith("0.001", "0"), "replays[0].metres_per_unit = 0" + file + "a number above 0");
   EXPECT_NE(MessageWith("\"up\": [0, 0, 1], ", "").find("the key \"up\""), std::string::npos);
   EXPECT_NE(MessageWith("}]}]}", "}]}").find("expected JSON: "), std::string::npos);
 }
