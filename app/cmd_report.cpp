@@ -1,6 +1,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
@@ -22,7 +24,8 @@ namespace {
 
 struct ReportFlags {
   ReportSettings settings;
-  std::string out, title, trials;
+  std::string out, title;
+  std::vector<std::string> trials;
   double size_mm = 60.0;
 };
 
@@ -56,16 +59,15 @@ std::string TitleOf(const std::vector<std::string>& inputs) {
 void WriteReport(const ReportFlags& flags, bool metric_given) {
   const AtomicFile probe(flags.out);  // refuses an unwritable target before the work
   for (const std::string& read : flags.settings.inputs) RequireApart({read, flags.out});
-  TrialsByObject trials;
-  if (!flags.trials.empty()) {
+  for (const std::filesystem::path folder : flags.trials) {
     for (const char* name : {"trials.csv", "executions.csv", "replays.json"}) {
-      RequireApart({std::filesystem::path(flags.trials) / name, flags.out});
+      RequireApart({folder / name, flags.out});
     }
-    trials = ReadTrials(flags.trials);
   }
+  const TrialsByObject trials = ReadTrials(flags.trials);
   ConsoleObserver console;
   Report report = Collect(flags.settings, metric_given, &console);
-  if (!flags.trials.empty()) AddTrials(trials, flags.trials, &report);
+  if (!flags.trials.empty()) AddTrials(trials, &report);
   AddPrintChecks(flags.size_mm, flags.settings.threads, &console, &report);
   report.title = flags.title.empty() ? TitleOf(flags.settings.inputs) : flags.title;
   report.provenance.emplace_back("report made by",
@@ -94,9 +96,11 @@ void AddReportCommand(CLI::App* app) {
                    "and scores of evaluate")
       ->required();
   command->add_option("--out", flags->out, "the page (HTML)")->required();
-  command->add_option("--trials", flags->trials,
-                      "a folder of antigrasp trial: what simulated executions say of the objects, "
-                      "and replays of them");
+  command
+      ->add_option("--trials", flags->trials,
+                   "a folder of antigrasp trial: what simulated executions say of the objects, and "
+                   "replays of them; once for every folder")
+      ->allow_extra_args(false);
   command->add_option("--title", flags->title, "of the page; without it, the inputs");
   command
       ->add_option(

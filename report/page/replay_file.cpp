@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "antigrasp/core/error.h"
 #include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
 
 namespace antigrasp {
 namespace {
@@ -24,9 +24,7 @@ class Place {
     if (!json_.is_object() || !json_.contains(key)) Fail("the key \"" + std::string(key) + "\"");
     return {json_[key], path_, name_.empty() ? key : name_ + "." + key};
   }
-  Place At(std::size_t i) const {
-    return {json_[i], path_, name_ + "[" + std::to_string(i) + "]"};
-  }
+  Place At(std::size_t i) const { return {json_[i], path_, name_ + "[" + std::to_string(i) + "]"}; }
 
   void RequireNumber() const {
     if (!json_.is_number()) Fail("a number");

@@ -46,6 +46,7 @@ struct ReportOriginal {
 struct ReportTrialSeries {
   std::string protocol;
   bool before = false;  // of the original, not of the object
+  std::string masses;   // "own", "equal", or not said
   double friction = 0.0;
   double held = 0.0, low = 0.0, high = 0.0;  // share of executions, its 95 % interval
 };

@@ -121,6 +121,7 @@ Json TrialsJson(const ReportTrials& trials) {
   for (const ReportTrialSeries& series : trials.series) {
     json["series"].push_back({{"protocol", series.protocol},
                               {"side", series.before ? "before" : "after"},
+                              {"masses", series.masses},
                               {"friction", series.friction},
                               {"held", Rounded(series.held)},
                               {"low", Rounded(series.low)},

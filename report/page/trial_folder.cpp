@@ -27,11 +27,13 @@ class TrialRows {
       : csv(path),
         object_(csv.RequiredColumn("object")),
         protocol_(csv.RequiredColumn("protocol")),
-        side_(csv.Column("side")) {}
+        side_(csv.Column("side")),
+        masses_(csv.Column("masses")) {}
 
   CsvReader csv;
   const std::string& object() const { return csv.Field(object_); }
   const std::string& protocol() const { return csv.Field(protocol_); }
+  std::string masses() const { return masses_ ? csv.Field(*masses_) : ""; }
   bool before() const {
     const std::string side = side_ ? csv.Field(*side_) : "";
     if (side.empty() || side == "after") return false;
@@ -41,19 +43,20 @@ class TrialRows {
 
  private:
   std::size_t object_, protocol_;
-  std::optional<std::size_t> side_;
+  std::optional<std::size_t> side_, masses_;
 };
 
-// Of this protocol and side; a new one, without numbers, where there is none.
+// Of this protocol, side and kind of mass; a new one, without numbers, where there is none.
 std::size_t SeriesOf(const TrialRows& rows, ReportTrials* trials) {
   const auto found = std::find_if(
       trials->series.begin(), trials->series.end(), [&](const ReportTrialSeries& series) {
-        return series.protocol == rows.protocol() && series.before == rows.before();
+        return series.protocol == rows.protocol() && series.before == rows.before() &&
+               series.masses == rows.masses();
       });
   const auto index = static_cast<std::size_t>(found - trials->series.begin());
   if (found == trials->series.end()) {
-    trials->series.push_back(
-        {rows.protocol(), rows.before(), kNoNumber, kNoNumber, kNoNumber, kNoNumber});
+    trials->series.push_back({rows.protocol(), rows.before(), rows.masses(), kNoNumber, kNoNumber,
+                              kNoNumber, kNoNumber});
   }
   return index;
 }
@@ -69,8 +72,8 @@ void ReadShares(const fs::path& path, TrialsByObject* trials) {
     const std::size_t before = of_object.series.size();
     const std::size_t index = SeriesOf(rows, &of_object);
     if (index < before) {
-      throw InputError(rows.object() + " under " + rows.protocol() + " once more",
-                       rows.csv.Where(), "one row for an object, protocol and side");
+      throw InputError(rows.object() + " under " + rows.protocol() + " once more", rows.csv.Where(),
+                       "one row for an object, protocol, side and kind of mass");
     }
     ReportTrialSeries& series = of_object.series[index];
     series.held = rows.csv.NumberOrGap(held);
@@ -117,18 +120,19 @@ void ReadExecutions(const fs::path& path, TrialsByObject* trials) {
 
 }  // namespace
 
-TrialsByObject ReadTrials(const std::string& folder) {
+TrialsByObject ReadTrials(const std::vector<std::string>& folders) {
   TrialsByObject trials;
-  for (const char* table : {"trials.csv", "executions.csv"}) {
-    if (!fs::is_regular_file(fs::path(folder) / table)) {
-      throw InputError(std::string("no ") + table, folder,
+  for (const std::string& name : folders) {
+    const fs::path folder = name;
+    for (const char* table : {"trials.csv", "executions.csv"}) {
+      if (fs::is_regular_file(folder / table)) continue;
+      throw InputError(std::string("no ") + table, name,
                        "a folder that antigrasp trial wrote, with trials.csv and executions.csv");
     }
-  }
-  ReadShares(fs::path(folder) / "trials.csv", &trials);
-  ReadExecutions(fs::path(folder) / "executions.csv", &trials);
-  const fs::path replays = fs::path(folder) / "replays.json";
-  if (fs::exists(replays)) {
+    ReadShares(folder / "trials.csv", &trials);
+    ReadExecutions(folder / "executions.csv", &trials);
+    const fs::path replays = folder / "replays.json";
+    if (!fs::exists(replays)) continue;
     for (auto& [object, replay] : ReadReplays(replays.string())) {
       trials[object].replays.push_back(std::move(replay));
     }
@@ -136,7 +140,7 @@ TrialsByObject ReadTrials(const std::string& folder) {
   return trials;
 }
 
-void AddTrials(const TrialsByObject& trials, const std::string& folder, Report* report) {
+void AddTrials(const TrialsByObject& trials, Report* report) {
   std::size_t without = 0;
   for (ReportObject& object : report->objects) {
     const auto found = trials.find(object.name);
@@ -154,14 +158,13 @@ void AddTrials(const TrialsByObject& trials, const std::string& folder, Report* 
   }
   if (!not_shown.empty()) {
     report->missing.push_back(std::to_string(not_shown.size()) + " of " +
-                              std::to_string(trials.size()) + " objects with trials in " + folder +
-                              " are not shown here: " + not_shown[0] +
+                              std::to_string(trials.size()) +
+                              " objects with trials are not shown here: " + not_shown[0] +
                               (not_shown.size() > 1 ? ", ..." : "") + ".");
   }
   if (without > 0) {
     report->missing.push_back(std::to_string(without) + " of " +
-                              std::to_string(report->objects.size()) + " objects have no trials in " +
-                              folder + ".");
+                              std::to_string(report->objects.size()) + " objects have no trials.");
   }
 }
 

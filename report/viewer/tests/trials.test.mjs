@@ -78,7 +78,7 @@ function trials(blob) {
     series: [
       { protocol: "six-ways", side: "before", friction: 0.25, held: 0.65, low: 0.6, high: 0.7 },
       { protocol: "six-ways", side: "after", friction: 0.25, held: 0.54, low: 0.49, high: 0.6 },
-      { protocol: "paper", side: "after", friction: 0.3, held: 0.8, low: null, high: null },
+      { protocol: "paper", side: "after", masses: "equal", friction: 0.3, held: 0.8, low: null, high: null },
     ],
     grasps: [
       ...Array.from({ length: 8 }, (_, i) => grasp(0, i, 5 - (i % 3), 5)),
@@ -115,7 +115,7 @@ describe("trials on the object's page", () => {
     const box = page.locator(".trials");
     const rows = await box.locator("table.numbers tbody tr").allInnerTexts();
     assert.match(rows[0], /six-ways, friction 0\.25\s+65\s%\s\(60–70\)\s+54\s%\s\(49–60\)$/);
-    assert.match(rows[1], /paper, friction 0\.30\s+–\s+80\s%$/);
+    assert.match(rows[1], /paper, friction 0\.30, equal mass\s+–\s+80\s%$/);
     assert.match(await box.innerText(), /Judge: a physics engine[^]*No robot has held it/);
     await expectQuiet(page);
   });
@@ -126,7 +126,7 @@ describe("trials on the object's page", () => {
     assert.equal(await chart.locator("circle").count(), 14);
     const title = await chart.locator("circle title").first().textContent();
     assert.match(title, /grasp 0, before: quality 3\.00.*; 5 held, 0 slipped/);
-    await page.getByLabel("Protocol of the chart").selectOption("paper, friction 0.30");
+    await page.getByLabel("Protocol of the chart").selectOption("paper, friction 0.30, equal mass");
     await frames(page);
     assert.equal(await chart.locator("circle").count(), 3);
     await expectQuiet(page);

@@ -16,19 +16,21 @@ using TrialJson = nlohmann::json;
 
 // Columns in another order than the document's, and one that nobody asks for.
 constexpr char kShares[] =
-    "engine,object,side,protocol,friction,held_low,held,held_high\n"
-    "x,mug,after,six-ways,0.25,0.4,0.5,0.6\n"
-    "x,mug,before,six-ways,0.25,0.7,0.8,0.9\n"
-    "x,cup,after,paper,0.3,,0.125,\n"
-    "x,elsewhere,after,paper,0.3,0,0,0.1\n";
+    "engine,object,side,protocol,masses,friction,held_low,held,held_high\n"
+    "x,mug,after,six-ways,own,0.25,0.4,0.5,0.6\n"
+    "x,mug,before,six-ways,own,0.25,0.7,0.8,0.9\n"
+    "x,mug,after,six-ways,equal,0.25,0.2,0.25,0.3\n"
+    "x,cup,after,paper,own,0.3,,0.125,\n"
+    "x,elsewhere,after,paper,own,0.3,0,0,0.1\n";
 constexpr char kExecutions[] =
-    "object,side,protocol,grasp,execution,robust_quality,outcome\n"
-    "mug,after,six-ways,7,0,0.002,slipped\n"
-    "mug,after,six-ways,7,1,0.002,held\n"
-    "mug,before,six-ways,7,0,0.003,held\n"
-    "mug,after,six-ways,9,0,0.001,lost closing\n"
-    "mug,after,six-ways,7,2,0.002,slipped\n"
-    "cup,,paper,2,0,,held\n";
+    "object,side,protocol,masses,grasp,execution,robust_quality,outcome\n"
+    "mug,after,six-ways,own,7,0,0.002,slipped\n"
+    "mug,after,six-ways,own,7,1,0.002,held\n"
+    "mug,before,six-ways,own,7,0,0.003,held\n"
+    "mug,after,six-ways,own,9,0,0.001,lost closing\n"
+    "mug,after,six-ways,own,7,2,0.002,slipped\n"
+    "mug,after,six-ways,equal,7,0,0.002,slipped\n"
+    "cup,,paper,own,2,0,,held\n";
 constexpr char kReplays[] = R"({"format": "antigrasp.replays", "version": 1, "replays": [
   {"object": "mug", "side": "after", "protocol": "six-ways", "grasp": 7, "execution": 1,
    "outcome": "held", "friction": 0.52, "metres_per_unit": 0.001,
@@ -54,7 +56,7 @@ class TrialFolder : public ::testing::Test {
   std::string Path() const { return folder_.path().string(); }
   std::string MessageOf() {
     try {
-      AddTrials(ReadTrials(Path()), Path(), &report_);
+      AddTrials(ReadTrials({Path()}), &report_);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -73,9 +75,9 @@ class TrialFolder : public ::testing::Test {
 };
 
 TEST_F(TrialFolder, GivesObjectsTheSharesOfTheirName) {
-  AddTrials(ReadTrials(Path()), Path(), &report_);
+  AddTrials(ReadTrials({Path()}), &report_);
   const ReportTrials& mug = *report_.objects[1].trials;
-  ASSERT_EQ(mug.series.size(), 2U);
+  ASSERT_EQ(mug.series.size(), 3U);
   EXPECT_EQ(mug.series[0].protocol, "six-ways");
   EXPECT_FALSE(mug.series[0].before);
   EXPECT_TRUE(mug.series[1].before);
@@ -84,14 +86,17 @@ TEST_F(TrialFolder, GivesObjectsTheSharesOfTheirName) {
   EXPECT_EQ(mug.series[0].low, 0.4);
   EXPECT_EQ(mug.series[0].high, 0.6);
   EXPECT_EQ(mug.series[1].held, 0.8);
+  EXPECT_EQ(mug.series[1].masses, "own");
+  EXPECT_EQ(mug.series[2].masses, "equal");
+  EXPECT_EQ(mug.series[2].held, 0.25);
   EXPECT_TRUE(std::isnan(report_.objects[0].trials->series[0].low));
   EXPECT_FALSE(report_.objects[2].trials);
 }
 
 TEST_F(TrialFolder, CountsTheExecutionsOfEveryGraspBySideAndOutcome) {
-  AddTrials(ReadTrials(Path()), Path(), &report_);
+  AddTrials(ReadTrials({Path()}), &report_);
   const auto& grasps = report_.objects[1].trials->grasps;
-  ASSERT_EQ(grasps.size(), 3U);
+  ASSERT_EQ(grasps.size(), 4U);
   EXPECT_EQ(grasps[0].grasp, 7);
   EXPECT_EQ(grasps[0].series, 0U);
   EXPECT_EQ(grasps[0].quality, 0.002);
@@ -105,23 +110,34 @@ TEST_F(TrialFolder, CountsTheExecutionsOfEveryGraspBySideAndOutcome) {
   EXPECT_TRUE(std::isnan(report_.objects[0].trials->grasps[0].quality));
 }
 
+TEST_F(TrialFolder, JoinsFoldersOfOneProtocolEach) {
+  folder_.Write("b/trials.csv", "object,protocol,held,held_low,held_high\nmug,paper,1,0.75,1\n");
+  folder_.Write("b/executions.csv",
+                "object,protocol,grasp,robust_quality,outcome\nmug,paper,7,0.5,held\n");
+  const ReportTrials mug = ReadTrials({Path(), (folder_ / "b").string()}).at("mug");
+  ASSERT_EQ(mug.series.size(), 4U);
+  EXPECT_EQ(mug.series[3].protocol, "paper");
+  EXPECT_EQ(mug.grasps.back().series, 3U);
+  EXPECT_EQ(mug.grasps.back().quality, 0.5);
+  EXPECT_THROW(ReadTrials({Path(), Path()}), InputError);
+}
+
 TEST_F(TrialFolder, SaysWhatHasNoPartner) {
-  AddTrials(ReadTrials(Path()), Path(), &report_);
+  AddTrials(ReadTrials({Path()}), &report_);
   ASSERT_EQ(report_.missing.size(), 2U);
-  EXPECT_EQ(report_.missing[0],
-            "1 of 3 objects with trials in " + Path() + " are not shown here: elsewhere.");
-  EXPECT_EQ(report_.missing[1], "1 of 3 objects have no trials in " + Path() + ".");
+  EXPECT_EQ(report_.missing[0], "1 of 3 objects with trials are not shown here: elsewhere.");
+  EXPECT_EQ(report_.missing[1], "1 of 3 objects have no trials.");
 }
 
 TEST_F(TrialFolder, PutsReplaysIntoThePageAsTheyAre) {
   folder_.Write("replays.json", kReplays);
-  AddTrials(ReadTrials(Path()), Path(), &report_);
+  AddTrials(ReadTrials({Path()}), &report_);
   const ReportPayload payload = EncodeReport(report_, {});
   const TrialJson objects = TrialJson::parse(payload.json)["objects"];
   EXPECT_FALSE(objects[2].contains("trials"));
   const TrialJson trials = objects[1]["trials"];
   EXPECT_EQ(trials["series"][0], TrialJson::parse(R"({"protocol": "six-ways", "side": "after",
-      "friction": 0.25, "held": 0.5, "low": 0.4, "high": 0.6})"));
+      "masses": "own", "friction": 0.25, "held": 0.5, "low": 0.4, "high": 0.6})"));
   EXPECT_EQ(objects[0]["trials"]["series"][0]["low"], nullptr);
   EXPECT_EQ(trials["grasps"][0], TrialJson::parse(R"({"series": 0, "grasp": 7, "quality": 0.002,
       "held": 1, "executions": 3, "outcomes": [["slipped", 2], ["held", 1]]})"));
@@ -150,8 +166,9 @@ TEST_F(TrialFolder, RefusesTablesThatSayNothingOrSayItTwice) {
                              ":2): expected a whole number");
   folder_.Write("trials.csv",
                 "object,protocol,held,held_low,held_high\nmug,paper,1,1,1\nmug,paper,0,0,0\n");
-  EXPECT_EQ(MessageOf(), "mug under paper once more (" + (folder_ / "trials.csv").string() +
-                             ":3): expected one row for an object, protocol and side");
+  EXPECT_EQ(MessageOf(),
+            "mug under paper once more (" + (folder_ / "trials.csv").string() +
+                ":3): expected one row for an object, protocol, side and kind of mass");
 }
 
 TEST_F(TrialFolder, SaysWhereAReplayIsNotAsItShouldBe) {
@@ -167,7 +184,8 @@ TEST_F(TrialFolder, SaysWhereAReplayIsNotAsItShouldBe) {
             "replays[0].frames[1].t = 0.25" + file + "a time after the frame before");
   EXPECT_EQ(MessageWith("\"sphere\"", "\"cone\""),
             "replays[0].tip.kind = \"cone\"" + file + "\"sphere\" or \"pad\"");
-  EXPECT_EQ(MessageWith("0.001", "0"), "replays[0].metres_per_unit = 0" + file + "a number above 0");
+  EXPECT_EQ(MessageWith("0.001", "0"),
+            "replays[0].metres_per_unit = 0" + file + "a number above 0");
   EXPECT_NE(MessageWith("\"up\": [0, 0, 1], ", "").find("the key \"up\""), std::string::npos);
   EXPECT_NE(MessageWith("}]}]}", "}]}").find("expected JSON: "), std::string::npos);
 }

@@ -9,6 +9,8 @@ export type Vec3 = [number, number, number];
 export interface TrialSeries {
   protocol: string;
   side: Side;
+  /** "own", "equal" or empty. */
+  masses?: string;
   friction: Num;
   held: Num;
   low: Num;

@@ -14,9 +14,14 @@ export const JUDGE =
 const SIDES: Side[] = ["before", "after"];
 const COLOUR = { before: COLOURS.prior, after: COLOURS.run };
 
-/** Protocol and friction: what both sides of a comparison have in common. */
-function conditionsOf(series: TrialSeries): string {
-  return known(series.friction) ? `${series.protocol}, friction ${fixed(series.friction, 2)}` : series.protocol;
+/** Protocol, friction and mass: what both sides of a comparison have in common. */
+function conditionsOf({ protocol, friction, masses }: TrialSeries): string {
+  const parts = [
+    protocol,
+    known(friction) ? `friction ${fixed(friction, 2)}` : "",
+    masses === "equal" ? "equal mass" : masses === "own" ? "own mass" : (masses ?? ""),
+  ];
+  return parts.filter(Boolean).join(", ");
 }
 
 function share(series: TrialSeries | undefined): string {
