@@ -10,9 +10,10 @@
 int main(int argc, char** argv) {
   using namespace antigrasp::bench;
   const std::vector<std::pair<std::string, void (*)()>> comparisons = {
-      {"epsilon", CompareEpsilon}, {"evaluation", CompareEvaluation},
-      {"files", CompareFiles},     {"perturb", ComparePerturb},
-      {"poses", ComparePoses},     {"similarity", CompareSimilarity}};
+      {"contacts", CompareContacts},     {"epsilon", CompareEpsilon},
+      {"evaluation", CompareEvaluation}, {"files", CompareFiles},
+      {"perturb", ComparePerturb},       {"poses", ComparePoses},
+      {"similarity", CompareSimilarity}};
   const std::vector<std::string> named(argv + 1, argv + argc);
   std::size_t known = 0;
   for (const auto& [name, compare] : comparisons) {
@@ -21,7 +22,8 @@ int main(int argc, char** argv) {
     if (named.empty() || times > 0) compare();
   }
   if (known == named.size()) return 0;
-  std::fprintf(stderr,
-               "bench_compare [epsilon] [evaluation] [files] [perturb] [poses] [similarity]\n");
+  std::fprintf(
+      stderr,
+      "bench_compare [contacts] [epsilon] [evaluation] [files] [perturb] [poses] [similarity]\n");
   return 2;
 }

@@ -2,6 +2,7 @@
 
 namespace antigrasp::bench {
 
+void CompareContacts();
 void CompareEpsilon();
 void CompareEvaluation();
 void CompareFiles();

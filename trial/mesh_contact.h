@@ -37,7 +37,7 @@ class ContactSolid {
   // is within radius + margin, nearest first; of those whose normals are less than 8 degrees apart
   // the nearest alone. Minima that are seen through the material (a thin wall's far side) are none.
   // With the centre inside the solid (deeper than the radius) the same from within; normals point
-  // out. Writes at most `most` to `out` and returns how many. About 0.3 us.
+  // out. Writes at most `most` to `out` and returns how many. About a microsecond.
   int Touch(const SpherePose& sphere, double margin, SurfaceContact* out, int most = 4,
             TouchCache* cache = nullptr) const;
 

@@ -34,17 +34,16 @@ Vector3d Cut(Vector3d a, Vector3d b, int axis, double at) {
 }
 
 // Keeps what has sign * coordinate <= sign * at (Sutherland and Hodgman).
-void Clip(int axis, double sign, double at, Polygon* polygon) {
-  Polygon kept;
-  for (std::size_t i = 0; i < polygon->size; ++i) {
-    const Vector3d& from = polygon->corner[i];
-    const Vector3d& to = polygon->corner[(i + 1) % polygon->size];
+void Clip(const Polygon& polygon, int axis, double sign, double at, Polygon* kept) {
+  kept->size = 0;
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    const Vector3d& from = polygon.corner[i];
+    const Vector3d& to = polygon.corner[i + 1 < polygon.size ? i + 1 : 0];
     const bool from_in = sign * from[axis] <= sign * at;
     const bool to_in = sign * to[axis] <= sign * at;
-    if (from_in) kept.Add(from);
-    if (from_in != to_in) kept.Add(Cut(from, to, axis, at));
+    if (from_in) kept->Add(from);
+    if (from_in != to_in) kept->Add(Cut(from, to, axis, at));
   }
-  *polygon = kept;
 }
 
 // -1, 0 or 1: at which rim of [-half, half].
@@ -68,21 +67,31 @@ void AddPadContacts(const PadPose& pad, double margin, const std::array<Vector3d
   const Vector3d least = p[0].cwiseMin(p[1]).cwiseMin(p[2]);
   const Vector3d most = p[0].cwiseMax(p[1]).cwiseMax(p[2]);
   if ((least.array() > high.array()).any() || (most.array() < low.array()).any()) return;
-  Polygon polygon;
-  for (const Vector3d& corner : p) polygon.Add(corner);
+  std::array<Polygon, 2> buffers;
+  std::size_t used = 0;
+  for (const Vector3d& corner : p) buffers[used].Add(corner);
+  const auto clip = [&](int axis, double sign, double at) {
+    Clip(buffers[used], axis, sign, at, &buffers[1 - used]);
+    used = 1 - used;
+  };
   for (int axis = 0; axis < 3; ++axis) {
-    if (most[axis] > high[axis]) Clip(axis, 1.0, high[axis], &polygon);
-    if (least[axis] < low[axis]) Clip(axis, -1.0, low[axis], &polygon);
+    if (most[axis] > high[axis]) clip(axis, 1.0, high[axis]);
+    if (least[axis] < low[axis]) clip(axis, -1.0, low[axis]);
   }
+  const Polygon& polygon = buffers[used];
   for (std::size_t i = 0; i < polygon.size; ++i) {
     const Vector3d& q = polygon.corner[i];
-    const Vector3d& before = polygon.corner[(i + polygon.size - 1) % polygon.size];
-    const Vector3d& after = polygon.corner[(i + 1) % polygon.size];
+    const Vector3d& before = polygon.corner[i > 0 ? i - 1 : polygon.size - 1];
+    const Vector3d& after = polygon.corner[i + 1 < polygon.size ? i + 1 : 0];
     Vector3d reach = into;  // as far as the normals of the rim go
     for (int k = 1; k < 3; ++k) {
       if (Rim(q[k], pad.half[k]) * into[k] <= 0.0) reach[k] = 0.0;
     }
-    reach.normalize();
+    if (reach[1] == 0.0 && reach[2] == 0.0) {
+      reach[0] = 1.0;
+    } else {
+      reach.normalize();
+    }
     const bool lowest = std::min(before[0], after[0]) >= q[0] - kLevel;
     points->push_back({q.tail<2>(), reach, q[0] * reach[0], lowest});
   }
