@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -118,6 +119,16 @@ void ReadExecutions(const fs::path& path, TrialsByObject* trials) {
   }
 }
 
+// By its name; a perturbed object is named after its original, and its trials after the file that
+// it was written to.
+TrialsByObject::const_iterator TrialsOf(const std::string& name, const TrialsByObject& trials) {
+  auto found = trials.find(name);
+  for (const char* extension : {".stl", ".ply"}) {
+    if (found == trials.end()) found = trials.find(name + extension);
+  }
+  return found;
+}
+
 }  // namespace
 
 TrialsByObject ReadTrials(const std::vector<std::string>& folders) {
@@ -142,19 +153,19 @@ TrialsByObject ReadTrials(const std::vector<std::string>& folders) {
 
 void AddTrials(const TrialsByObject& trials, Report* report) {
   std::size_t without = 0;
+  std::set<std::string> shown;
   for (ReportObject& object : report->objects) {
-    const auto found = trials.find(object.name);
+    const auto found = TrialsOf(object.name, trials);
     if (found == trials.end()) {
       ++without;
     } else {
       object.trials = found->second;
+      shown.insert(found->first);
     }
   }
   std::vector<std::string> not_shown;
   for (const auto& [name, unused] : trials) {
-    const bool shown = std::any_of(report->objects.begin(), report->objects.end(),
-                                   [&](const ReportObject& object) { return object.name == name; });
-    if (!shown) not_shown.push_back(name);
+    if (!shown.contains(name)) not_shown.push_back(name);
   }
   if (!not_shown.empty()) {
     report->missing.push_back(std::to_string(not_shown.size()) + " of " +

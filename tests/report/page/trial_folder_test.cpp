@@ -129,6 +129,17 @@ TEST_F(TrialFolder, SaysWhatHasNoPartner) {
   EXPECT_EQ(report_.missing[1], "1 of 3 objects have no trials.");
 }
 
+TEST_F(TrialFolder, FindsAPerturbedObjectByTheFileItWasWrittenTo) {
+  folder_.Write("trials.csv",
+                "object,protocol,held,held_low,held_high\njug.stl,paper,0.5,0.25,0.75\n");
+  folder_.Write("executions.csv", "object,protocol,grasp,robust_quality,outcome\n");
+  AddTrials(ReadTrials({Path()}), &report_);
+  EXPECT_FALSE(report_.objects[1].trials);
+  ASSERT_TRUE(report_.objects[2].trials);
+  EXPECT_EQ(report_.objects[2].trials->series[0].held, 0.5);
+  EXPECT_EQ(report_.missing, std::vector<std::string>{"2 of 3 objects have no trials."});
+}
+
 TEST_F(TrialFolder, PutsReplaysIntoThePageAsTheyAre) {
   folder_.Write("replays.json", kReplays);
   AddTrials(ReadTrials({Path()}), &report_);
