@@ -88,7 +88,7 @@ export class ReplayPanel implements View {
         new LineSegments(edges, new LineBasicMaterial({ color: 0x5b6c7d })),
       );
     this.tips = [make(), make()];
-    this.table = new ThreeMesh(new PlaneGeometry(0.3, 0.3), this.ground);
+    this.table = new ThreeMesh(new PlaneGeometry(0.16, 0.16), this.ground);
     this.table.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...replay.up).normalize());
     this.shafts = new InstancedMesh(new CylinderGeometry(1, 1, 1, 12).translate(0, 0.5, 0), this.ink, MOST_FORCES);
     this.heads = new InstancedMesh(new ConeGeometry(1, 1, 16).translate(0, -0.5, 0), this.ink, MOST_FORCES);
