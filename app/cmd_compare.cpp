@@ -8,8 +8,7 @@
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
 #include "antigrasp/core/atomic_file.h"
-#include "antigrasp/core/error.h"
-#include "antigrasp/core/rng.h"
+#include "antigrasp/datasets/compared_set.h"
 #include "antigrasp/datasets/comparison_table.h"
 #include "antigrasp/datasets/objects.h"
 
@@ -23,67 +22,14 @@ struct CompareFlags {
   SurfaceComparisonOptions options;
 };
 
-// The usable objects of an input.
-struct LoadedSet {
-  std::vector<TriangleMesh> meshes;
-  std::vector<std::uint64_t> streams;
-  int left_out = 0;
-};
-
-LoadedSet Load(const std::string& input, const std::string& what, const CompareFlags& flags) {
+ComparedSet Read(const std::string& input, const std::string& what, std::size_t least,
+                 const CompareFlags& flags) {
   ConsoleObserver console;
-  std::vector<InputObject> objects =
-      LoadObjects({input}, flags.options.threads, console.Phase("reading the " + what));
-  LoadedSet set;
-  std::vector<std::string> statuses;
-  for (InputObject& object : objects) {
-    statuses.push_back(object.status);
-    if (object.ok() && SurfaceArea(object.mesh) > 0.0) {
-      // The whole name: points of two shapes of one set are never drawn alike.
-      set.streams.push_back(HashOf(FileNameOf(object.name)));
-      set.meshes.push_back(flags.units == LengthUnit::kM
-                               ? std::move(object.mesh)
-                               : Transformed(object.mesh, MetresPer(flags.units), {0.0, 0.0, 0.0}));
-    } else {
-      ++set.left_out;
-    }
-  }
-  std::fprintf(stderr, "%s: %s\n", what.c_str(), CountByStatus(statuses).c_str());
+  ComparedSet set = ReadComparedSet(input, flags.units, flags.options.threads,
+                                    console.Phase("reading the " + what));
+  std::fprintf(stderr, "%s: %s\n", what.c_str(), set.counts.c_str());
+  RequireShapes(set, least);
   return set;
-}
-
-// `count` of the shapes at random, in their order: the first ones of a folder may be of one kind.
-// Each draws a lot by its name, and the lowest stay, in whatever order they come.
-void KeepAtRandom(std::size_t count, std::uint64_t seed, std::uint64_t number, LoadedSet* set) {
-  std::vector<std::pair<std::uint64_t, std::size_t>> lots;
-  for (std::size_t i = 0; i < set->streams.size(); ++i) {
-    lots.emplace_back(RngStream(seed, "compared shapes", number, set->streams[i]).NextU64(), i);
-  }
-  std::sort(lots.begin(), lots.end());
-  lots.resize(count);
-  std::sort(lots.begin(), lots.end(),
-            [](const auto& a, const auto& b) { return a.second < b.second; });
-  LoadedSet kept{{}, {}, set->left_out};
-  for (const auto& [lot, i] : lots) {
-    kept.meshes.push_back(std::move(set->meshes[i]));
-    kept.streams.push_back(set->streams[i]);
-  }
-  *set = std::move(kept);
-}
-
-void Warn(const SurfaceComparison& found) {
-  const double ratio = found.samples.size / found.reference.size;
-  if (ratio > 2.0 || ratio < 0.5) {
-    spdlog::warn("the samples are {:.3g} times as large as the reference: same unit?", ratio);
-  }
-  const double nearest = found.sets.within_reference;
-  if (nearest < 1.25 * found.reference.floor) {
-    spdlog::warn(
-        "reference shapes are {:.3g} from their nearest, two samplings of one shape {:.3g}: "
-        "coverage, "
-        "1-NNA and near-duplicates are largely chance; more --points",
-        nearest, found.reference.floor);
-  }
 }
 
 void Compare(const CompareFlags& flags) {
@@ -91,18 +37,10 @@ void Compare(const CompareFlags& flags) {
   for (const std::string& read : {flags.samples, flags.reference, flags.training}) {
     if (!read.empty()) ObjectSource({read}).RequireNotRead({flags.out});
   }
-  LoadedSet samples = Load(flags.samples, "samples", flags);
-  LoadedSet reference = Load(flags.reference, "reference", flags);
-  LoadedSet training;
-  if (!flags.training.empty()) training = Load(flags.training, "training set", flags);
-  const auto require = [](const LoadedSet& set, std::size_t least, const std::string& input) {
-    if (set.meshes.size() >= least) return;
-    throw InputError(std::to_string(set.meshes.size()) + " solids", input,
-                     "at least " + std::to_string(least));
-  };
-  require(samples, 2, flags.samples);
-  require(reference, 2, flags.reference);
-  if (!flags.training.empty()) require(training, 1, flags.training);
+  ComparedSet samples = Read(flags.samples, "samples", 2, flags);
+  ComparedSet reference = Read(flags.reference, "reference", 2, flags);
+  ComparedSet training;
+  if (!flags.training.empty()) training = Read(flags.training, "training set", 1, flags);
   const std::size_t count = std::min(
       {static_cast<std::size_t>(flags.count), samples.meshes.size(), reference.meshes.size()});
   KeepAtRandom(count, flags.options.seed, 0, &samples);
@@ -115,7 +53,7 @@ void Compare(const CompareFlags& flags) {
   const ComparisonTable table(found, count, samples.left_out, reference.left_out);
   if (!flags.out.empty()) WriteFileAtomic(flags.out, table.Csv());
   std::fputs(table.Text().c_str(), stdout);
-  Warn(found);
+  for (const std::string& doubt : DoubtsOf(found)) spdlog::warn("{}", doubt);
 }
 
 }  // namespace
@@ -138,11 +76,7 @@ void AddCompareCommand(CLI::App* app) {
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
   command->add_option("--seed", flags->options.seed, "random seed")->capture_default_str();
-  command
-      ->add_option("--threads", flags->options.threads,
-                   "threads; 0 = all; the numbers do not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(command, &flags->options.threads, "; the numbers do not depend on it");
   command->footer(
       "Distances are Chamfer distances in metres, the objects' unit being --units; they are "
       "compared as they lie.\ndocs/similarity.md defines every number.");

@@ -72,9 +72,7 @@ void AddDatasetCommand(CLI::App* app) {
       ->capture_default_str();
   make->add_option("--seed", make_flags->options.seed, "random seed")->capture_default_str();
   AddResolution(make, &make_flags->options.resolution);
-  make->add_option("--threads", make_flags->options.threads, "threads; 0 = all")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(make, &make_flags->options.threads);
   make->add_option("--out", make_flags->out, "SDF file to write (HDF5)")->required();
   make->callback([make_flags] { Make(*make_flags); });
 
@@ -88,9 +86,7 @@ void AddDatasetCommand(CLI::App* app) {
             "set: one factor for all, which leaves out what is far larger than the others; each: "
             "every object as large as the grid allows");
   AddResolution(imported, &import_flags->options.resolution);
-  imported->add_option("--threads", import_flags->options.threads, "threads; 0 = all")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(imported, &import_flags->options.threads);
   imported->callback([import_flags] { Import(*import_flags); });
 }
 

@@ -1,23 +1,15 @@
 #include <spdlog/spdlog.h>
 
-#include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "antigrasp/app/commands.h"
-#include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
-#include "antigrasp/app/hardest.h"
-#include "antigrasp/app/score_notes.h"
-#include "antigrasp/app/scored_objects.h"
+#include "antigrasp/app/score_objects.h"
 #include "antigrasp/core/atomic_file.h"
-#include "antigrasp/core/error.h"
-#include "antigrasp/core/ordered_stream.h"
-#include "antigrasp/core/statistics.h"
 #include "antigrasp/quality/grasp_table.h"
-#include "antigrasp/quality/object_size.h"
-#include "antigrasp/quality/sampling_effort.h"
 
 namespace antigrasp {
 namespace {
@@ -33,20 +25,6 @@ struct EvaluateFlags {
   int threads = 0;
 };
 
-// What is kept of the objects when they have been scored.
-struct Scores {
-  explicit Scores(const MetricOptions& metric) : sizes(metric) {}
-  ScoreTable table;
-  std::vector<ScoreRow> rows;             // in place of the table, to choose from
-  std::string first;                      // the first one and its status
-  std::vector<double> values, originals;  // graspabilities, NaN where there is none
-  std::vector<std::string> notes;
-  CandidateCount candidates;
-  UnlikelySizes sizes;
-  std::string interval;                // of the only score, over its grasps
-  std::optional<PairDifference> pair;  // of the only pair
-};
-
 std::string MetricPath(const EvaluateFlags& flags) {
   return flags.out.empty() ? "" : flags.out + ".metric.toml";
 }
@@ -60,80 +38,27 @@ void WriteScores(const EvaluateFlags& flags, const MetricOptions& metric, const 
   WriteFileAtomic(MetricPath(flags), MetricToml(metric, flags.seed));
 }
 
-// " +-0.00012 (95 %)"; nothing for a single object, which says nothing about the spread.
-std::string HalfWidth(const char* format, double half_width) {
-  char text[64] = "";
-  if (std::isfinite(half_width)) std::snprintf(text, sizeof text, format, half_width);
-  return text;
+void PrintLines(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) std::fprintf(stderr, "%s\n", line.c_str());
 }
 
-void PrintSummary(const Scores& scores, const MetricOptions& metric) {
-  const MeanInterval mean = MeanWithInterval(scores.values);
-  std::fprintf(stderr, "%d objects scored, %d not: mean graspability %.5f%s, %s\n", mean.count,
-               static_cast<int>(scores.values.size()) - mean.count, mean.mean,
-               HalfWidth(" +-%.5f (95 %%)", mean.half_width).c_str(), SizeText(metric).c_str());
-  std::fprintf(stderr, "%s\n", scores.candidates.Text().c_str());
+// A pair need not have one name when there is one of each.
+void WarnOfOtherName(const ObjectSource& objects, const ObjectSource& originals) {
+  if (objects.size() > 1) return;
+  const std::string &object = objects.name(0), &original = originals.name(0);
+  if (FileNameOf(object) == FileNameOf(original)) return;
+  spdlog::warn("{} and {} are taken as a pair, though their names differ: there is one of each",
+               object, original);
 }
 
-// Of the pairs that both have a score.
-void PrintPairedDifference(const Scores& scores) {
-  if (scores.pair) {
-    std::fprintf(stderr, "%s\n", PairText(*scores.pair, scores.originals.front()).c_str());
-    return;
-  }
-  const std::vector<double>&changed = scores.values, &original = scores.originals;
-  std::vector<double> difference, of_pairs;
-  for (std::size_t i = 0; i < changed.size(); ++i) {
-    difference.push_back(changed[i] - original[i]);
-    of_pairs.push_back(original[i] + 0.0 * changed[i]);  // NaN where either is
-  }
-  const MeanInterval mean = MeanWithInterval(difference);
-  const double baseline = MeanWithInterval(of_pairs).mean;
-  if (mean.count == 0) {
-    std::fprintf(stderr, "no paired difference: no object and its baseline both have a score\n");
-    return;
-  }
-  std::fprintf(stderr, "paired difference %+.5f%s", mean.mean,
-               HalfWidth(" +-%.5f (95 %%)", mean.half_width).c_str());
-  if (baseline > 0.0) {
-    std::fprintf(stderr, ", %+.1f%s %% of the baseline's %.5f", 100.0 * mean.mean / baseline,
-                 HalfWidth(" +-%.1f", 100.0 * mean.half_width / baseline).c_str(), baseline);
-  }
-  std::fprintf(stderr, "%s, %d pairs\n", baseline > 0.0 ? "" : ", the baseline is 0", mean.count);
+void EvaluateHardest(const EvaluateFlags& flags, const ObjectSource& objects,
+                     const Scoring& scoring) {
+  const HardestOfSet found = FindHardest(objects, flags.inputs.front(), flags.hardest, scoring);
+  WriteScores(flags, scoring.metric, HardestCsv(found.objects));
+  PrintLines(found.summary);
 }
 
-// How many grasps it took, and what the scores mean beside known ones.
-void PrintNotes(const Scores& scores, const MetricOptions& metric, bool effort_given) {
-  const auto objects = std::ssize(scores.values);
-  if (!scores.interval.empty()) std::fprintf(stderr, "%s\n", scores.interval.c_str());
-  if (!effort_given) std::fprintf(stderr, "%s\n", EffortText(objects, metric).c_str());
-  const MeanInterval mean = MeanWithInterval(scores.values);
-  std::fprintf(stderr, "%s\n", KnownText(mean.mean, mean.count > 1, metric).c_str());
-}
-
-// InputError, before anything is written, when no object has a score.
-void RequireAScore(const EvaluateFlags& flags, const Scores& scores) {
-  for (const double value : scores.values) {
-    if (!std::isnan(value)) return;
-  }
-  throw InputError("no object scored; " + scores.first, flags.inputs.front(), "a closed solid");
-}
-
-// Of an only object: what its grasps say about how sure its numbers are.
-void LookAtGrasps(const ScoredObject& scored, const std::optional<ScoredObject>& original,
-                  const MetricOptions& metric, Scores* scores) {
-  if (!std::isfinite(scored.Value())) return;
-  scores->interval = IntervalText(scored.score);
-  if (!original || !std::isfinite(original->Value())) return;
-  scores->pair = DifferenceOf(scored.score, original->score, metric.percentile);
-  if (FileNameOf(scored.name) == FileNameOf(original->name)) return;
-  scores->notes.push_back(scored.name + " and " + original->name +
-                          " are taken as a pair, though their names differ: there is one of each");
-}
-
-// Object by object, each with its original's graspability where there are originals.
-Scores ScoreAllOf(const ObjectSource& objects, const EvaluateFlags& flags,
-                  const MetricOptions& metric, bool egad) {
+void EvaluateAll(const EvaluateFlags& flags, const ObjectSource& objects, const Scoring& scoring) {
   std::optional<ObjectSource> originals;
   std::vector<std::int64_t> original_of;
   if (!flags.baseline.empty()) {
@@ -143,78 +68,40 @@ Scores ScoreAllOf(const ObjectSource& objects, const EvaluateFlags& flags,
   std::optional<AtomicFile> grasps_file;
   if (!flags.grasps.empty()) grasps_file.emplace(flags.grasps);
   GraspTable grasps(flags.frame);
-  Scores scores(metric);
-  ConsoleObserver console;
-  StreamInOrder(
-      objects.size(), flags.threads,
-      [&](std::int64_t i) {
-        const std::uint64_t stream = objects.stream(i);
-        std::optional<ScoredObject> original;
-        if (originals) {
-          const std::int64_t place = original_of[static_cast<std::size_t>(i)];
-          original = ScoreObject(originals->Load(place), stream, metric, flags.seed);
-        }
-        return std::pair(ScoreObject(objects.Load(i), stream, metric, flags.seed), original);
-      },
-      [&](std::int64_t, const std::pair<ScoredObject, std::optional<ScoredObject>>& item) {
-        const auto& [scored, original] = item;
-        if (scores.first.empty()) scores.first = scored.name + ": " + scored.status;
-        const double baseline = original ? original->Value() : 0.0;
-        const ScoreRow row = RowOf(scored, egad, original ? &baseline : nullptr);
-        if (flags.hardest > 0) {
-          scores.rows.push_back(row);
-        } else {
-          scores.table.Add(row);
-        }
-        scores.values.push_back(scored.Value());
-        if (original) scores.originals.push_back(baseline);
-        if (objects.size() == 1) LookAtGrasps(scored, original, metric, &scores);
-        if (!scored.note.empty()) scores.notes.push_back(scored.name + ": " + scored.note);
-        scores.candidates.Add(scored.score);
-        scores.sizes.Add(scored.name, scored.extent, &scored.score);
-        if (!grasps_file) return;
-        grasps.Add(scored.name, scored.score, scored.center_of_mass);
-        grasps_file->Append(grasps.TakeText());
-      },
-      console.Phase("scoring"));
-  const std::string shared = SharedDrawsText(objects);
-  if (!shared.empty()) scores.notes.push_back(shared);
-  for (const std::string& note : scores.notes) spdlog::warn("{}", note);
-  for (const std::string& size : scores.sizes.Texts()) spdlog::warn("{}", size);
-  RequireAScore(flags, scores);
+  ScoreTable table;
+  const ScoredSet scores =
+      ScoreObjects(objects, flags.inputs.front(), originals ? &*originals : nullptr, original_of,
+                   scoring, [&](const ScoredObject& scored, const ScoreRow& row) {
+                     table.Add(row);
+                     if (!grasps_file) return;
+                     grasps.Add(scored.name, scored.score, scored.center_of_mass);
+                     grasps_file->Append(grasps.TakeText());
+                   });
+  if (originals) WarnOfOtherName(objects, *originals);
   if (grasps_file) grasps_file->Commit();
-  return scores;
+  WriteScores(flags, scoring.metric, table.Csv());
+  PrintLines(scores.Summary(scoring.effort_given));
+  if (originals) PrintLines({scores.PairedDifference()});
 }
 
 void Evaluate(const EvaluateFlags& flags, const MetricFlags& metric_flags) {
-  MetricOptions metric = metric_flags.Resolve();
+  Scoring scoring{metric_flags.Resolve(), metric_flags.effort_given(),
+                  metric_flags.preset() == "egad", flags.seed, flags.threads};
   for (const std::string& out : {flags.out, flags.grasps}) {
     if (!out.empty()) const AtomicFile probe(out);  // refuses an unwritable target before the work
   }
-  RequireApart({flags.out, MetricPath(flags), flags.grasps});
+  const std::vector<std::filesystem::path> written = {flags.out, MetricPath(flags), flags.grasps};
+  RequireApart(written);
   const ObjectSource objects(flags.inputs);
-  objects.RequireNotRead({flags.out, MetricPath(flags), flags.grasps});
-  RequireNotRead(metric_flags.gripper(), {flags.out, MetricPath(flags), flags.grasps});
-  if (!flags.baseline.empty()) {
-    ObjectSource(flags.baseline).RequireNotRead({flags.out, MetricPath(flags), flags.grasps});
-  }
-  metric_flags.RaiseEffort(objects.size(), &metric);
-  const Scores scores = ScoreAllOf(objects, flags, metric, metric_flags.preset() == "egad");
-  std::vector<HardestObject> hardest;
+  objects.RequireNotRead(written);
+  RequireNotRead(metric_flags.gripper(), written);
+  if (!flags.baseline.empty()) ObjectSource(flags.baseline).RequireNotRead(written);
+  metric_flags.RaiseEffort(objects.size(), &scoring.metric);
   if (flags.hardest > 0) {
-    ConsoleObserver console;
-    hardest = FindHardest(objects, scores.rows, flags.hardest, metric, flags.seed, flags.threads,
-                          &console);
+    EvaluateHardest(flags, objects, scoring);
+  } else {
+    EvaluateAll(flags, objects, scoring);
   }
-  ScoreTable of_hardest;
-  for (const HardestObject& found : hardest) of_hardest.Add(found.row);
-  WriteScores(flags, metric, (hardest.empty() ? scores.table : of_hardest).Csv());
-  PrintSummary(scores, metric);
-  PrintNotes(scores, metric, metric_flags.effort_given());
-  if (!hardest.empty()) {
-    std::fprintf(stderr, "%s\n", HardestText(hardest, objects.size()).c_str());
-  }
-  if (!flags.baseline.empty()) PrintPairedDifference(scores);
 }
 
 }  // namespace
@@ -240,9 +127,7 @@ void AddEvaluateCommand(CLI::App* app) {
                  "draws: the lowest of many noisy scores is too low")
       ->excludes("--baseline", "--grasps");
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
-  command->add_option("--threads", flags->threads, "threads; 0 = all; scores do not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(command, &flags->threads, "; scores do not depend on it");
   const auto metric = std::make_shared<MetricFlags>(command);
   command->callback([flags, metric] { Evaluate(*flags, *metric); });
 }

@@ -1,32 +1,26 @@
 #include <spdlog/spdlog.h>
 
-#include <array>
 #include <cstdio>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
-#include "antigrasp/app/hardest.h"
+#include "antigrasp/app/score_objects.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/ordered_stream.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/datasets/result_folder.h"
-#include "antigrasp/export/print_table.h"
+#include "antigrasp/export/print_place.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/mesh_format.h"
 #include "antigrasp/quality/object_size.h"
 
 namespace antigrasp {
 namespace {
-
-enum class ExportPose { kAsIs, kPrint };
-constexpr auto ChoicesOf(ExportPose) {
-  return std::to_array<Choice<ExportPose>>(
-      {{ExportPose::kAsIs, "as-is"}, {ExportPose::kPrint, "print"}});
-}
 
 // Of --hardest.
 constexpr const char* kScores = "hardest.csv";
@@ -50,71 +44,43 @@ struct ExportFlags {
   }
 };
 
-// A usable object that is a printable solid, placed as it will be written; else why it is none.
-struct Placed {
-  PrintedObject printed;
-  std::string note, refusal;
-  TriangleMesh mesh;
-};
-
-Placed PlaceForPrint(InputObject object, const ExportFlags& flags, const PrintOptions& options) {
-  Placed placed{
-      {object.name, FileNameOf(object.name) + "." + flags.format, {}}, object.note, "", {}};
-  if (!object.ok()) {
-    placed.refusal = object.status;
-    return placed;
-  }
-  PrintCheck& check = placed.printed.check;
-  check = CheckPrint(object.mesh, flags.SizeOf(object.mesh), options);
-  placed.refusal = check.why_not_solid;
-  if (!placed.refusal.empty()) return placed;
-  const Eigen::Matrix3d pose =
-      flags.pose == ExportPose::kPrint ? check.table_from_object : Eigen::Matrix3d::Identity();
-  placed.mesh = PlacedForPrint(object.mesh, check, pose);
-  return placed;
+PlacedSolid Place(const InputObject& object, const ExportFlags& flags,
+                  const PrintOptions& options) {
+  if (!object.ok()) return {{object.name, "", {}}, object.status, {}};
+  return PlaceForPrint(object.name, FileNameOf(object.name) + "." + flags.format, object.mesh,
+                       flags.SizeOf(object.mesh), flags.pose, options);
 }
 
 // The hardest objects, and their scores into the folder.
 std::vector<std::int64_t> ChooseHardest(const ObjectSource& objects, const ExportFlags& flags,
-                                        const MetricOptions& metric,
+                                        const Scoring& scoring,
                                         const std::filesystem::path& folder) {
-  ConsoleObserver console;
-  const std::vector<ScoreRow> rows =
-      ScoreRowsOf(objects, metric, flags.seed, flags.threads, &console);
-  const std::vector<HardestObject> hardest =
-      FindHardest(objects, rows, flags.hardest, metric, flags.seed, flags.threads, &console);
-  for (const ScoreRow& row : rows) {
-    if (!row.score) spdlog::warn("not scored: {}: {}", row.object, row.status);
-  }
-  if (hardest.empty()) throw InputError("no object scored", flags.inputs.front(), "a closed solid");
+  const HardestOfSet hardest = FindHardest(objects, flags.inputs.front(), flags.hardest, scoring);
+  WriteFileAtomic(folder / kScores, HardestCsv(hardest.objects));
+  WriteFileAtomic(folder / kConstants, MetricToml(scoring.metric, flags.seed));
+  for (const std::string& line : hardest.summary) std::fprintf(stderr, "%s\n", line.c_str());
   std::vector<std::int64_t> places;
-  ScoreTable table;
-  for (const HardestObject& found : hardest) {
-    places.push_back(found.place);
-    table.Add(found.row);
-  }
-  WriteFileAtomic(folder / kScores, table.Csv());
-  WriteFileAtomic(folder / kConstants, MetricToml(metric, flags.seed));
-  std::fprintf(stderr, "%s\n", HardestText(hardest, objects.size()).c_str());
+  for (const HardestObject& found : hardest.objects) places.push_back(found.place);
   return places;
 }
 
 void Export(const ExportFlags& flags, const PrintOptions& options,
             const MetricFlags& metric_flags) {
-  MetricOptions metric = metric_flags.Resolve();
+  Scoring scoring{metric_flags.Resolve(), metric_flags.effort_given(),
+                  metric_flags.preset() == "egad", flags.seed, flags.threads};
   if (flags.true_size) {
-    metric.object_min_extent = 0.0;
-    metric.units = flags.units;
+    scoring.metric.object_min_extent = 0.0;
+    scoring.metric.units = flags.units;
   }
   const ObjectSource objects(flags.inputs);
-  metric_flags.RaiseEffort(objects.size(), &metric);
+  metric_flags.RaiseEffort(objects.size(), &scoring.metric);
   const std::filesystem::path out = flags.out;
   RequireNotRead(metric_flags.gripper(), {out / kScores, out / kConstants});
   ResultFolder results(flags.out, {"print.csv", {kScores, kConstants}, {"NAME." + flags.format}},
                        objects, flags.overwrite);
   std::vector<std::int64_t> places(static_cast<std::size_t>(objects.size()));
   std::iota(places.begin(), places.end(), 0);
-  if (flags.hardest > 0) places = ChooseHardest(objects, flags, metric, results.path());
+  if (flags.hardest > 0) places = ChooseHardest(objects, flags, scoring, results.path());
   PrintTable solids(options);
   std::vector<std::string> refusals;
   MetricOptions as_it_is;
@@ -125,10 +91,12 @@ void Export(const ExportFlags& flags, const PrintOptions& options,
   StreamInOrder(
       std::ssize(places), flags.threads,
       [&](std::int64_t i) {
-        return PlaceForPrint(objects.Load(places[static_cast<std::size_t>(i)]), flags, options);
+        const InputObject object = objects.Load(places[static_cast<std::size_t>(i)]);
+        return std::pair(Place(object, flags, options), object.note);
       },
-      [&](std::int64_t, Placed item) {
-        if (!item.note.empty()) spdlog::warn("{}: {}", item.printed.name, item.note);
+      [&](std::int64_t, std::pair<PlacedSolid, std::string> placed) {
+        auto& [item, note] = placed;
+        if (!note.empty()) spdlog::warn("{}: {}", item.printed.name, note);
         if (!item.refusal.empty()) {
           refusals.push_back(item.printed.name + ": " + item.refusal);
           return;
@@ -189,9 +157,7 @@ void AddExportCommand(CLI::App* app) {
   command->add_option("--seed", flags->seed, "random seed of the scores")
       ->capture_default_str()
       ->needs(hardest);
-  command->add_option("--threads", flags->threads, "threads; 0 = all")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(command, &flags->threads);
   PrintOptions defaults;
   OptionTable table;
   Bind(&table, &defaults);

@@ -49,9 +49,7 @@ std::shared_ptr<CommonFlags> AddCommonFlags(CLI::App* command) {
                    "faces that meet at less than this angle are shaded as one, degrees; 0 = facets")
       ->check(NumberIn(0.0, 180.0))
       ->capture_default_str();
-  command->add_option("--threads", o.threads, "threads; 0 = all; the picture does not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(command, &o.threads, "; the picture does not depend on it");
   return flags;
 }
 

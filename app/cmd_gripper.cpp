@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -16,36 +15,6 @@ namespace {
 
 constexpr double kMillimetres = 1000.0;
 
-void PrintKnownGrippers() {
-  std::printf("%-12s %8s  %-19s %-16s %-19s %s\n", "name, mm", "opening", "finger w x t x l",
-              "beyond the grasp", "palm l x w x d", "");
-  for (const NamedGripper& gripper : NamedGrippers()) {
-    const GripperModel& m = gripper.model;
-    const auto sizes = [](double a, double b, double c) {
-      char text[64];
-      std::snprintf(text, sizeof text, "%.4g x %.4g x %.4g", kMillimetres * a, kMillimetres * b,
-                    kMillimetres * c);
-      return std::string(text);
-    };
-    std::printf(
-        "%-12s %8.4g  %-19s %-16.4g %-19s %s\n", std::string(gripper.name).c_str(),
-        kMillimetres * gripper.jaw_opening,
-        sizes(m.finger_width, m.finger_thickness, m.palm_distance + m.fingertip_overlap).c_str(),
-        kMillimetres * m.fingertip_overlap,
-        sizes(m.palm_length, m.palm_width, m.palm_depth).c_str(),
-        std::string(gripper.about).c_str());
-  }
-}
-
-std::string AboutOf(const std::string& name) {
-  for (const NamedGripper& gripper : NamedGrippers()) {
-    if (gripper.name == name) {
-      return std::string(gripper.about) + "; sources: docs/grippers.md. Metres";
-    }
-  }
-  return name + ". Metres";
-}
-
 // As it stands above a table: the approach points down.
 TriangleMesh PointingDown(TriangleMesh mesh) {
   for (Eigen::Vector3d& v : mesh.vertices) v = {v.y(), -v.z(), -v.x()};
@@ -56,7 +25,7 @@ void Gripper(const std::string& name, const std::string& out) {
   MetricOptions metric;
   ApplyGripper(name, &metric);
   RequireFittingGripper(metric, name);
-  const std::string toml = GripperToml(metric, AboutOf(name));
+  const std::string toml = GripperToml(metric, AboutGripper(name) + ". Metres");
   const std::filesystem::path path = out;
   RequireNotRead(name, {path});
   const bool as_mesh = !out.empty() && path.extension() != ".png" && path.extension() != ".toml";
@@ -96,7 +65,7 @@ void AddGripperCommand(CLI::App* app) {
   command->footer(kAbout);
   command->callback([name, out] {
     if (name->empty()) {
-      PrintKnownGrippers();
+      std::fputs(GripperList().c_str(), stdout);
     } else {
       Gripper(*name, *out);
     }

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <memory>
-#include <mutex>
 #include <type_traits>
 
 #include "antigrasp/app/commands.h"
@@ -14,6 +13,7 @@
 #include "antigrasp/datasets/result_folder.h"
 #include "antigrasp/perturb/antipodal_rotation.h"
 #include "antigrasp/perturb/exhaustive.h"
+#include "antigrasp/perturb/perturb_all.h"
 #include "antigrasp/perturb/perturb_folder.h"
 #include "antigrasp/perturb/perturb_summary.h"
 #include "antigrasp/perturb/random_perturbation.h"
@@ -30,59 +30,6 @@ struct PerturbFlags {
   int threads = 0;
 };
 
-// Turns the progress of objects that run at the same time into that of the whole.
-class SharedProgress {
- public:
-  SharedProgress(std::size_t objects, ProgressFn progress)
-      : total_(kSteps * static_cast<std::int64_t>(objects)), progress_(std::move(progress)) {}
-
-  // To be called with growing shares of one object; `at` remembers the last.
-  void Report(double share, std::int64_t* at) {
-    const auto now = static_cast<std::int64_t>(share * kSteps);
-    if (now <= *at) return;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    done_ += now - *at;
-    *at = now;
-    progress_(done_, total_);
-  }
-
- private:
-  static constexpr std::int64_t kSteps = 100;
-  std::mutex mutex_;
-  std::int64_t done_ = 0, total_;
-  ProgressFn progress_;
-};
-
-// What a signal cuts short is marked so, and the objects that are done are kept.
-std::vector<PerturbedObject> PerturbAll(std::vector<InputObject> inputs,
-                                        const PerturbSettings& settings, int threads,
-                                        const ProgressFn& bar) {
-  std::vector<PerturbedObject> objects(inputs.size());
-  SharedProgress progress(inputs.size(), bar);
-  ParallelFor(static_cast<std::int64_t>(inputs.size()), threads, [&](std::int64_t i) {
-    PerturbedObject& item = objects[static_cast<std::size_t>(i)];
-    item.object = std::move(inputs[static_cast<std::size_t>(i)]);
-    if (item.object.unit != 1.0) {  // of an imported set: results keep the unit of its files
-      item.object.mesh = Transformed(item.object.mesh, item.object.unit, Eigen::Vector3d::Zero());
-    }
-    std::int64_t at = 0;
-    try {
-      if (item.object.ok()) {
-        item.scored = PerturbAndScore(item.object.mesh, settings, item.object.stream,
-                                      [&](std::int64_t done, std::int64_t total) {
-                                        if (InterruptRequested()) throw Interrupted();
-                                        // The scores before and after take the rest.
-                                        progress.Report(0.99 * double(done) / double(total), &at);
-                                      });
-      }
-      progress.Report(1.0, &at);
-    } catch (const Interrupted&) {
-      item.interrupted = item.scored.result.mesh.faces.empty();
-    }
-  });
-  return objects;
-}
-
 void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
              const std::string& constants, const std::string& gripper) {
   ConsoleObserver console;
@@ -95,20 +42,12 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
   auto inputs = LoadObjects(source, flags.threads, console.Phase("reading"));
   WarnOfNotes(inputs);
   WarnOfSizes(inputs, settings.metric);
-  const auto objects =
-      PerturbAll(std::move(inputs), settings, flags.threads, console.Phase("perturbing"));
-  const std::filesystem::path& out = results.path();
-  for (const std::string& note : WritePerturbedMeshes(objects, out)) spdlog::warn("{}", note);
-  std::vector<PerturbRow> rows;
-  std::vector<PerturbHistory> histories;
-  for (const PerturbedObject& item : objects) {
-    rows.push_back(RowOf(item));
-    histories.push_back(HistoryOf(item));
-  }
-  if (settings.common.history) WriteFileAtomic(out / "history.csv", PerturbHistoryCsv(histories));
-  WriteFileAtomic(out / "perturb.toml", constants);
-  WritePerturbedSheet(objects, out, flags.threads);
-  WriteFileAtomic(out / "summary.csv", PerturbMeansCsv(MeansOf(rows)));
+  const auto objects = PerturbAll(std::move(inputs), settings, flags.threads, InterruptRequested,
+                                  console.Phase("perturbing"));
+  const std::vector<std::string> notes = WritePerturbFiles(
+      objects, {constants, settings.common.history, flags.threads}, results.path());
+  for (const std::string& note : notes) spdlog::warn("{}", note);
+  const std::vector<PerturbRow> rows = RowsOf(objects);
   results.Commit(PerturbCsv(rows));
   for (const PerturbedObject& item : objects) {
     if (item.Status() != "ok") spdlog::warn("{}: {}", item.object.name, item.Status());
@@ -138,9 +77,7 @@ void AddMethod(CLI::App* perturb, const std::string& name, const std::string& he
       ->required();
   AddOverwrite(command, &flags->overwrite);
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
-  command->add_option("--threads", flags->threads, "threads; 0 = all; results do not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(command, &flags->threads, "; results do not depend on it");
   const auto bind = [](OptionTable* table, Options* own, PerturbOptions* common,
                        SubdivideOptions* fine) {
     Bind(table, own);

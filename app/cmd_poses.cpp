@@ -8,11 +8,9 @@
 #include "antigrasp/app/flags.h"
 #include "antigrasp/app/object_notes.h"
 #include "antigrasp/core/atomic_file.h"
-#include "antigrasp/core/csv_writer.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/objects.h"
-#include "antigrasp/mesh/convex_hull.h"
-#include "antigrasp/mesh/stable_poses.h"
+#include "antigrasp/mesh/pose_table.h"
 
 namespace antigrasp {
 namespace {
@@ -23,24 +21,6 @@ struct PosesFlags {
   LengthUnit units = LengthUnit::kM;
   int threads = 0;
 };
-
-// An object that encloses no volume gets the centre of mass of its hull.
-std::vector<StablePose> PosesOf(const InputObject& object) {
-  if (object.ok()) return StablePoses(object.mesh, CenterOfMass(object.mesh));
-  return StablePoses(object.mesh, CenterOfMass(ConvexHull(object.mesh.vertices)));
-}
-
-void AppendPoses(const std::string& name, const std::vector<StablePose>& poses, LengthUnit units,
-                 CsvWriter* csv) {
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    csv->Text(name).Count(std::int64_t(i));
-    csv->Numbers({poses[i].probability, MetresPer(units) * poses[i].com_height});
-    for (const double value : poses[i].table_from_object.reshaped<Eigen::RowMajor>()) {
-      csv->Number(value);
-    }
-    csv->EndRow();
-  }
-}
 
 void Poses(const PosesFlags& flags) {
   if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
@@ -55,15 +35,14 @@ void Poses(const PosesFlags& flags) {
       std::ssize(objects), flags.threads,
       [&](std::int64_t i) {
         const auto slot = static_cast<std::size_t>(i);
-        poses[slot] = PosesOf(objects[slot]);
+        poses[slot] = StablePosesOf(objects[slot].mesh, objects[slot].ok());
       },
       console.Phase("stable poses"));
-  CsvWriter csv({"object", "pose", "probability", "com_height", "r00", "r01", "r02", "r10", "r11",
-                 "r12", "r20", "r21", "r22"});
+  PoseTable table(flags.units);
   std::size_t with_poses = 0;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     with_poses += poses[i].empty() ? 0 : 1;
-    AppendPoses(objects[i].name, poses[i], flags.units, &csv);
+    table.Add(objects[i].name, poses[i]);
   }
   if (with_poses == 0) {
     throw InputError("no stable pose", flags.inputs.front(), "an object that is not flat");
@@ -78,9 +57,9 @@ void Poses(const PosesFlags& flags) {
     }
   }
   if (flags.out.empty()) {
-    std::printf("%s", csv.text().c_str());
+    std::printf("%s", table.Csv().c_str());
   } else {
-    WriteFileAtomic(flags.out, csv.text());
+    WriteFileAtomic(flags.out, table.Csv());
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (poses[i].empty()) continue;
@@ -104,9 +83,7 @@ void AddPosesCommand(CLI::App* app) {
   command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
   command->add_option("--out", flags->out, "poses (CSV). Without it they go to standard output");
   AddUnits(command, &flags->units, ", for com_height");
-  command->add_option("--threads", flags->threads, "threads; 0 = all")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(command, &flags->threads);
   command->footer(kPoseColumns);
   command->callback([flags] { Poses(*flags); });
 }

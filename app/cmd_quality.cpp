@@ -23,20 +23,6 @@ OptionFlags ContactOptionFlags(CLI::App* command) {
   return {command, table, "Contacts"};
 }
 
-std::vector<ContactRowQuality> EvaluateRows(const std::vector<ContactRow>& rows,
-                                            const WrenchResistanceOptions& options, int threads) {
-  ConsoleObserver console;
-  std::vector<ContactRowQuality> qualities(rows.size());
-  ParallelFor(
-      static_cast<std::int64_t>(rows.size()), threads,
-      [&](std::int64_t i) {
-        const auto slot = static_cast<std::size_t>(i);
-        qualities[slot] = EvaluateContacts(rows[slot], options);
-      },
-      console.Phase("grasps"));
-  return qualities;
-}
-
 void Quality(const QualityFlags& flags, const OptionFlags& contact_flags) {
   ContactTableOptions options;
   OptionTable table;
@@ -45,8 +31,9 @@ void Quality(const QualityFlags& flags, const OptionFlags& contact_flags) {
   if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
   RequireApart({flags.table, flags.out});
   const std::vector<ContactRow> rows = ReadContactTable(flags.table, options);
+  ConsoleObserver console;
   const std::vector<ContactRowQuality> qualities =
-      EvaluateRows(rows, options.wrench, flags.threads);
+      EvaluateAllContacts(rows, options.wrench, flags.threads, console.Phase("grasps"));
   if (flags.out.empty()) {
     std::printf("%s", ContactCsv(rows, qualities).c_str());
   } else {
@@ -80,9 +67,7 @@ void AddQualityCommand(CLI::App* app) {
   command->add_option("--out", flags->out,
                       "scores (CSV); the constants go to the same name plus .quality.toml. "
                       "Without it the scores go to standard output");
-  command->add_option("--threads", flags->threads, "threads; 0 = all; scores do not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(command, &flags->threads, "; scores do not depend on it");
   const auto contact_flags = std::make_shared<OptionFlags>(ContactOptionFlags(command));
   command->footer(kQualityColumns);
   command->callback([flags, contact_flags] { Quality(*flags, *contact_flags); });

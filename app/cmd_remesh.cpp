@@ -66,9 +66,7 @@ void AddRemeshCommand(CLI::App* app) {
   command->add_option("--format", flags->format, Alternatives(WritableExtensions()))
       ->check(CLI::IsMember(WritableExtensions()))
       ->capture_default_str();
-  command->add_option("--threads", flags->threads, "threads; 0 = all")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(command, &flags->threads);
   command->callback([flags] { RemeshFile(*flags); });
 }
 

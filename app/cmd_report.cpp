@@ -9,15 +9,12 @@
 #include "antigrasp/app/flags.h"
 #include "antigrasp/app/network_commands.h"
 #include "antigrasp/core/atomic_file.h"
-#include "antigrasp/core/error.h"
 #include "antigrasp/core/version.h"
-#include "antigrasp/report/objects_report.h"
+#include "antigrasp/report/make_report.h"
 #include "antigrasp/report/page/page.h"
 #include "antigrasp/report/page/report_template.h"
 #include "antigrasp/report/page/trial_folder.h"
-#include "antigrasp/report/perturbed_report.h"
 #include "antigrasp/report/print_report.h"
-#include "antigrasp/report/run_report.h"
 
 namespace antigrasp {
 namespace {
@@ -28,26 +25,6 @@ struct ReportFlags {
   std::vector<std::string> trials;
   double size_mm = 60.0;
 };
-
-// A run, or a folder that `perturb` wrote, has a metric of its own and fills a page alone.
-Report Collect(const ReportSettings& settings, bool metric_given, RunObserver* observer) {
-  for (const std::string& input : settings.inputs) {
-    const bool run = IsRun(input), perturbed = !run && IsPerturbed(input);
-    const bool own_metric = run || perturbed || IsScoreTable(input);
-    if (own_metric && metric_given) {
-      throw InputError("constants of the metric or a seed for " + input, "command line",
-                       "none: it is shown with its own");
-    }
-    if (!run && !perturbed) continue;
-    if (settings.inputs.size() > 1) {
-      throw InputError(input + " beside other inputs", "command line",
-                       "a run or a folder of perturbed objects alone");
-    }
-    return run ? RunReport(RunFolder{input}, settings, observer)
-               : PerturbedReport(input, settings, observer);
-  }
-  return ObjectsReport(settings, observer);
-}
 
 std::string TitleOf(const std::vector<std::string>& inputs) {
   std::string title;
@@ -66,7 +43,7 @@ void WriteReport(const ReportFlags& flags, bool metric_given) {
   }
   const TrialsByObject trials = ReadTrials(flags.trials);
   ConsoleObserver console;
-  Report report = Collect(flags.settings, metric_given, &console);
+  Report report = MakeReport(flags.settings, metric_given, &console);
   if (!flags.trials.empty()) AddTrials(trials, &report);
   AddPrintChecks(flags.size_mm, flags.settings.threads, &console, &report);
   report.title = flags.title.empty() ? TitleOf(flags.settings.inputs) : flags.title;
@@ -116,9 +93,7 @@ void AddReportCommand(CLI::App* app) {
   CLI::Option* const seed =
       command->add_option("--seed", settings.seed, "random seed of the scores")
           ->capture_default_str();
-  command->add_option("--threads", settings.threads, "threads; 0 = all; no byte depends on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(command, &settings.threads, "; no byte depends on it");
   const auto metric = std::make_shared<MetricFlags>(command);
   command->callback([flags, metric, seed] {
     flags->settings.metric = metric->Resolve();

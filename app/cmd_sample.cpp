@@ -1,19 +1,15 @@
-#include <torch/types.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
+#include "antigrasp/app/flags.h"
 #include "antigrasp/app/network_commands.h"
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/atomic_file.h"
-#include "antigrasp/models/sdf_values.h"
-#include "antigrasp/train/make_gan.h"
-#include "antigrasp/train/sample_name.h"
-#include "antigrasp/train/stage.h"
+#include "antigrasp/train/sample_set.h"
 
 namespace antigrasp {
 namespace {
@@ -41,24 +37,8 @@ void Sample(const SampleFlags& flags) {
   model->LoadNetworks(checkpoint.networks, path.string());
 
   ConsoleObserver console;
-  const ProgressFn progress = console.Phase("sampling");
-  ShapeSet set;
-  set.kind = "samples";
-  set.seed = flags.seed;
-  set.truncation = LargestDistance(config.model);
-  set.provenance = "antigrasp sample " + path.string() + ", episode " +
-                   std::to_string(model->episode()) + ", update " + std::to_string(model->step());
-  ShapeSetWriter writer(flags.out, set, static_cast<std::size_t>(flags.count));
-  constexpr int kChunk = 64;
-  for (int first = 0; first < flags.count; first += kChunk) {
-    const torch::Tensor values =
-        model->Sample(flags.seed, first, std::min(kChunk, flags.count - first));
-    for (std::int64_t i = 0; i < values.size(0); ++i) {
-      writer.Add(SampleName(first + i), GridOf(values[i], config.model));
-    }
-    progress(std::min(first + kChunk, flags.count), flags.count);
-  }
-  writer.Commit();
+  WriteSamples(flags.out, model.get(), config.model, path.string(), flags.seed, flags.count,
+               console.Phase("sampling"));
   std::printf("%s: %d samples, seed %llu, from %s\n", flags.out.c_str(), flags.count,
               static_cast<unsigned long long>(flags.seed), path.c_str());
 }
@@ -78,9 +58,7 @@ void AddSampleCommand(CLI::App* app) {
   command->add_option("--seed", flags->seed, "seed of the latent vectors")->capture_default_str();
   command->add_option("--out", flags->out, "SDF file to write (HDF5)")->required();
   command->add_option("--device", flags->device, "cpu, cuda, cuda:1")->capture_default_str();
-  command->add_option("--threads", flags->threads, "threads; 0 = all")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(command, &flags->threads);
   command->callback([flags] { Sample(*flags); });
 }
 

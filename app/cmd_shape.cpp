@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -8,10 +7,9 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
-#include "antigrasp/mesh/inspect.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/mesh_format.h"
-#include "antigrasp/perturb/polyhedra.h"
+#include "antigrasp/perturb/certificate.h"
 
 namespace antigrasp {
 namespace {
@@ -30,29 +28,6 @@ OptionFlags SearchFlags(CLI::App* command) {
   return {command, table, "Search"};
 }
 
-Polyhedron KindOf(const std::string& name) {
-  const auto& names = PolyhedronNames();
-  return static_cast<Polyhedron>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-void PrintCertificate(const AdversarialPolyhedron& solid, const ShapeFlags& flags) {
-  const MeshReport report = Inspect(solid.mesh);
-  const std::string flaw = WhyNotSolid(report);
-  const Eigen::Vector3d extent = Bounds(solid.mesh).Extent();
-  std::printf("%s: %s, %zu vertices, %zu faces\n", flags.out.c_str(), flags.kind.c_str(),
-              solid.mesh.vertices.size(), solid.mesh.faces.size());
-  std::printf("smallest antipodality angle  %.4f degrees, of faces %zu and %zu (asked for: %g)\n",
-              solid.antipodality.degrees, solid.antipodality.first, solid.antipodality.second,
-              flags.options.phi);
-  std::printf("convex                       %s\n", IsConvex(solid.mesh) ? "yes" : "no");
-  std::printf("closed                       %s\n", report.closed ? "yes" : "no");
-  std::printf("printable                    %s\n", flaw.empty() ? "yes" : ("no: " + flaw).c_str());
-  std::printf("moved from the plain solid   at most %.2f %% of its size, %.2f %% rms\n",
-              100.0 * solid.largest_move, 100.0 * solid.rms_move);
-  std::printf("extents                      %.2f x %.2f x %.2f mm, %.2f cm^3\n", extent.x(),
-              extent.y(), extent.z(), report.volume / 1000.0);
-}
-
 void Shape(ShapeFlags flags, const OptionFlags& search) {
   OptionTable table;
   Bind(&table, &flags.options);
@@ -67,7 +42,7 @@ void Shape(ShapeFlags flags, const OptionFlags& search) {
   { const AtomicFile probe(flags.out); }  // refuses an unwritable target before the work
   ConsoleObserver console;
   const AdversarialPolyhedron solid = MakeAdversarialPolyhedron(
-      KindOf(flags.kind), options, flags.threads, console.Phase("searching"));
+      *FindChoice<Polyhedron>(flags.kind), options, flags.threads, console.Phase("searching"));
   if (!solid.reached) {
     char best[32];
     std::snprintf(best, sizeof best, "%.4f", solid.antipodality.degrees);
@@ -76,7 +51,8 @@ void Shape(ShapeFlags flags, const OptionFlags& search) {
                      std::string("at most ") + best + " degrees, the best reached");
   }
   WriteMesh(flags.out, solid.mesh);
-  PrintCertificate(solid, flags);
+  std::printf("%s: %s, %s", flags.out.c_str(), flags.kind.c_str(),
+              CertificateText(solid, options.phi).c_str());
 }
 
 constexpr const char* kAboutShapes =
@@ -96,7 +72,7 @@ void AddShapeCommand(CLI::App* app) {
       app->add_subcommand("shape", "Make a polyhedron whose faces do not oppose each other");
   command->add_option("KIND", flags->kind, "what to start from")
       ->required()
-      ->check(CLI::IsMember(PolyhedronNames()));
+      ->check(CLI::IsMember(ChoiceNames<Polyhedron>()));
   command
       ->add_option("--phi", flags->options.phi,
                    "smallest antipodality angle of any two faces, degrees; 0 = the plain solid")
@@ -112,9 +88,7 @@ void AddShapeCommand(CLI::App* app) {
                    "mesh file (" + Alternatives(WritableExtensions(), ".") + "), millimetres")
       ->required();
   command->add_option("--seed", flags->options.seed, "random seed")->capture_default_str();
-  command->add_option("--threads", flags->threads, "threads; 0 = all; the solid is the same")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(command, &flags->threads, "; the solid is the same");
   const auto search = std::make_shared<OptionFlags>(SearchFlags(command));
   command->footer(kAboutShapes);
   command->callback([flags, search] { Shape(*flags, *search); });

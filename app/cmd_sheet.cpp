@@ -82,9 +82,7 @@ void AddSheetCommand(CLI::App* app) {
                    "faces that meet at less than this angle are shaded as one, degrees; 0 = facets")
       ->check(NumberIn(0.0, 180.0))
       ->capture_default_str();
-  command->add_option("--threads", flags->threads, "threads; 0 = all")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(command, &flags->threads);
   command->callback([flags] { Sheet(*flags); });
 }
 

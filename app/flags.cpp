@@ -65,6 +65,12 @@ CLI::Validator NumberIn(double low, double high) {
           "FLOAT in " + range, "NumberIn"};
 }
 
+void AddThreads(CLI::App* command, int* threads, const std::string& note) {
+  command->add_option("--threads", *threads, "threads; 0 = all" + note)
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+}
+
 void AddOverwrite(CLI::App* command, bool* overwrite) {
   command->add_flag(
       "--overwrite", *overwrite,

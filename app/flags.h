@@ -58,6 +58,9 @@ void WarnOfLengths(const MetricOptions& metric);
 // --units of a command without the metric's constants; the target must live until it has run.
 void AddUnits(CLI::App* command, LengthUnit* units, const std::string& help);
 
+// --threads, 0 = all; `note` follows in its help: "; scores do not depend on it".
+void AddThreads(CLI::App* command, int* threads, const std::string& note = "");
+
 // A number in [low, high]; unlike CLI::Range it refuses nan.
 CLI::Validator NumberIn(double low, double high);
 

@@ -74,4 +74,24 @@ std::string ComparisonTable::Text() const {
   return text;
 }
 
+std::vector<std::string> DoubtsOf(const SurfaceComparison& found) {
+  std::vector<std::string> doubts;
+  char text[200];
+  const double ratio = found.samples.size / found.reference.size;
+  if (ratio > 2.0 || ratio < 0.5) {
+    std::snprintf(text, sizeof text,
+                  "the samples are %.3g times as large as the reference: same unit?", ratio);
+    doubts.emplace_back(text);
+  }
+  const double nearest = found.sets.within_reference;
+  if (nearest < 1.25 * found.reference.floor) {
+    std::snprintf(text, sizeof text,
+                  "reference shapes are %.3g from their nearest, two samplings of one shape %.3g: "
+                  "coverage, 1-NNA and near-duplicates are largely chance; more --points",
+                  nearest, found.reference.floor);
+    doubts.emplace_back(text);
+  }
+  return doubts;
+}
+
 }  // namespace antigrasp

@@ -27,4 +27,8 @@ class ComparisonTable {
   std::vector<Row> rows_;
 };
 
+// What speaks against taking the numbers at their word: sets of different sizes, distances that are
+// largely chance.
+std::vector<std::string> DoubtsOf(const SurfaceComparison& found);
+
 }  // namespace antigrasp

@@ -137,6 +137,12 @@ std::uint64_t ObjectSource::stream(std::int64_t i) const {
   return sources_[static_cast<std::size_t>(i)].stream;
 }
 
+std::vector<std::uint64_t> ObjectSource::streams() const {
+  std::vector<std::uint64_t> streams;
+  for (const Source& source : sources_) streams.push_back(source.stream);
+  return streams;
+}
+
 InputObject ObjectSource::Load(std::int64_t i) const {
   const Source& source = sources_[static_cast<std::size_t>(i)];
   const Input& from = inputs_[source.input];
@@ -174,6 +180,24 @@ std::vector<InputObject> LoadObjects(const ObjectSource& source, int threads,
 std::vector<InputObject> LoadObjects(const std::vector<std::string>& inputs, int threads,
                                      const ProgressFn& progress, std::size_t limit) {
   return LoadObjects(ObjectSource(inputs), threads, progress, limit);
+}
+
+std::vector<std::int64_t> PairWithOriginals(const ObjectSource& objects,
+                                            const ObjectSource& originals) {
+  if (objects.size() == 1 && originals.size() == 1) return {0};
+  std::map<std::string, std::int64_t> place;  // names are told apart by their file names
+  for (std::int64_t i = 0; i < originals.size(); ++i) place[FileNameOf(originals.name(i))] = i;
+  std::vector<std::int64_t> pairs;
+  for (std::int64_t i = 0; i < objects.size(); ++i) {
+    const std::string name = FileNameOf(objects.name(i));
+    const auto found = place.find(name);
+    if (found == place.end()) {
+      throw InputError("0 originals", "--baseline for " + objects.name(i),
+                       "exactly one object named " + name);
+    }
+    pairs.push_back(found->second);
+  }
+  return pairs;
 }
 
 std::string CountByStatus(const std::vector<std::string>& statuses) {

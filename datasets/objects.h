@@ -34,6 +34,7 @@ class ObjectSource {
   const std::string& name(std::int64_t i) const;
   std::size_t input(std::int64_t i) const;     // which of the inputs it came with
   std::uint64_t stream(std::int64_t i) const;  // InputObject::stream
+  std::vector<std::uint64_t> streams() const;  // of all
   // Any thread may call. A mesh is usable when it is a solid after repair (mesh/repair.h).
   // InputError for an unreadable file that was named itself and for a damaged grid; an unreadable
   // mesh inside a folder is an object with that status.
@@ -55,6 +56,11 @@ std::vector<InputObject> LoadObjects(const ObjectSource& source, int threads,
                                      const ProgressFn& progress = nullptr, std::size_t limit = 0);
 std::vector<InputObject> LoadObjects(const std::vector<std::string>& inputs, int threads,
                                      const ProgressFn& progress = nullptr, std::size_t limit = 0);
+
+// Which original every object has: alone they pair up whatever they are called, else by name
+// without the extension. InputError for an object without an original.
+std::vector<std::int64_t> PairWithOriginals(const ObjectSource& objects,
+                                            const ObjectSource& originals);
 
 // "12 objects: 10 ok, 1 empty, 1 open: 4 boundary edges", of their statuses.
 std::string CountByStatus(const std::vector<std::string>& statuses);

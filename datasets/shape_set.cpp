@@ -1,6 +1,7 @@
 #include "antigrasp/datasets/shape_set.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/check.h"
@@ -229,6 +230,18 @@ ShapeSet ReadShapeSet(const std::filesystem::path& path) {
 }
 
 ShapeSetInfo ReadShapeSetInfo(const std::filesystem::path& path) { return Reader(path).Info(); }
+
+std::string ShapeSetText(const ShapeSetInfo& info) {
+  char grids[96], spacing[96], values[64] = "exact distances";
+  std::snprintf(grids, sizeof grids, "%d of %d^3", info.count, info.n);
+  std::snprintf(spacing, sizeof spacing, "%g (unit cube), positive inside", info.spacing);
+  if (info.truncation > 0) {
+    std::snprintf(values, sizeof values, "clamped to +-%g", info.truncation);
+  }
+  return "  kind        " + info.kind + "\n  shapes      " + grids + "\n  spacing     " + spacing +
+         "\n  values      " + values + "\n  seed        " + std::to_string(info.seed) +
+         "\n  provenance  " + info.provenance + "\n";
+}
 
 std::vector<std::string> ReadShapeNames(const std::filesystem::path& path) {
   const Reader reader(path);

@@ -65,6 +65,8 @@ class ShapeSetReader {
 ShapeSet ReadShapeSet(const std::filesystem::path& path);
 
 ShapeSetInfo ReadShapeSetInfo(const std::filesystem::path& path);  // attributes only, no grids
+// The same for people, a line each with two spaces before it.
+std::string ShapeSetText(const ShapeSetInfo& info);
 std::vector<std::string> ReadShapeNames(const std::filesystem::path& path);  // names, no grids
 bool IsShapeSet(const std::filesystem::path& path);  // by content, never throws
 

@@ -35,14 +35,31 @@ std::string WhyNotStl(const TriangleMesh& mesh) {
   return text;
 }
 
-void Remove(const fs::path& path) {
-  for (const char* extension : {".stl", ".ply"}) fs::remove(path.string() + extension);
+std::vector<std::string> WriteMeshes(const std::vector<PerturbedObject>& objects,
+                                     const fs::path& out) {
+  std::vector<std::string> notes;
+  MakeFolder(out / "before");
+  MakeFolder(out / "after");
+  for (const PerturbedObject& item : objects) {
+    const TriangleMesh& before = item.scored.before;
+    if (before.faces.empty()) continue;
+    const std::string note = WhyNotStl(before);
+    if (!note.empty()) notes.push_back(item.object.name + ": " + note);
+    const std::string file = FileNameOf(item.object.name) + (note.empty() ? ".stl" : ".ply");
+    WriteMesh(out / "before" / file, before);
+    if (IsOk(item)) WriteMesh(out / "after" / file, item.scored.result.mesh);
+  }
+  return notes;
 }
 
-// Also takes away what an earlier call left there in the other format.
-void WriteAs(const std::string& extension, const fs::path& path, const TriangleMesh& mesh) {
-  WriteMesh(path.string() + extension, mesh);
-  fs::remove(path.string() + (extension == ".stl" ? ".ply" : ".stl"));
+void WriteSheet(const std::vector<PerturbedObject>& objects, const fs::path& out, int threads) {
+  std::vector<std::vector<const TriangleMesh*>> rows(2);
+  for (const PerturbedObject& item : objects) {
+    if (!IsOk(item) || rows[0].size() == kSheetColumns) continue;
+    rows[0].push_back(&item.scored.before);
+    rows[1].push_back(&item.scored.result.mesh);
+  }
+  if (!rows[0].empty()) WritePng(out / "sheet.png", ContactSheet(rows, View{}, threads));
 }
 
 }  // namespace
@@ -60,15 +77,20 @@ PerturbRow RowOf(const PerturbedObject& item) {
   return row;
 }
 
+std::vector<PerturbRow> RowsOf(const std::vector<PerturbedObject>& objects) {
+  std::vector<PerturbRow> rows;
+  for (const PerturbedObject& item : objects) rows.push_back(RowOf(item));
+  return rows;
+}
+
 PerturbHistory HistoryOf(const PerturbedObject& item) {
   return HistoryOf(item.object.name, item.scored.result.history);
 }
 
 std::string PerturbSummary(const std::vector<PerturbedObject>& objects) {
-  std::vector<PerturbRow> rows;
+  const std::vector<PerturbRow> rows = RowsOf(objects);
   std::vector<double> seconds;
   for (const PerturbedObject& item : objects) {
-    rows.push_back(RowOf(item));
     if (IsOk(item)) seconds.push_back(item.scored.seconds);
   }
   std::string text = PerturbMeansText(MeansOf(rows));
@@ -101,37 +123,18 @@ void CheckPerturbFolder(const std::vector<std::string>& inputs, const fs::path& 
   }
 }
 
-std::vector<std::string> WritePerturbedMeshes(const std::vector<PerturbedObject>& objects,
-                                              const fs::path& out) {
-  std::vector<std::string> notes;
-  MakeFolder(out / "before");
-  MakeFolder(out / "after");
-  for (const PerturbedObject& item : objects) {
-    const TriangleMesh& before = item.scored.before;
-    const std::string file = FileNameOf(item.object.name);
-    if (!IsOk(item)) Remove(out / "after" / file);  // of an earlier call
-    if (before.faces.empty()) {
-      Remove(out / "before" / file);
-      continue;
-    }
-    const std::string note = WhyNotStl(before);
-    if (!note.empty()) notes.push_back(item.object.name + ": " + note);
-    const std::string extension = note.empty() ? ".stl" : ".ply";
-    WriteAs(extension, out / "before" / file, before);
-    if (IsOk(item)) WriteAs(extension, out / "after" / file, item.scored.result.mesh);
+std::vector<std::string> WritePerturbFiles(const std::vector<PerturbedObject>& objects,
+                                           const PerturbRecord& record, const fs::path& out) {
+  std::vector<std::string> notes = WriteMeshes(objects, out);
+  if (record.history) {
+    std::vector<PerturbHistory> histories;
+    for (const PerturbedObject& item : objects) histories.push_back(HistoryOf(item));
+    WriteFileAtomic(out / "history.csv", PerturbHistoryCsv(histories));
   }
+  WriteFileAtomic(out / "perturb.toml", record.constants);
+  WriteSheet(objects, out, record.threads);
+  WriteFileAtomic(out / "summary.csv", PerturbMeansCsv(MeansOf(RowsOf(objects))));
   return notes;
-}
-
-void WritePerturbedSheet(const std::vector<PerturbedObject>& objects, const fs::path& out,
-                         int threads) {
-  std::vector<std::vector<const TriangleMesh*>> rows(2);
-  for (const PerturbedObject& item : objects) {
-    if (!IsOk(item) || rows[0].size() == kSheetColumns) continue;
-    rows[0].push_back(&item.scored.before);
-    rows[1].push_back(&item.scored.result.mesh);
-  }
-  if (!rows[0].empty()) WritePng(out / "sheet.png", ContactSheet(rows, View{}, threads));
 }
 
 }  // namespace antigrasp

@@ -22,6 +22,7 @@ struct PerturbedObject {
 };
 
 PerturbRow RowOf(const PerturbedObject& item);  // of perturb.csv
+std::vector<PerturbRow> RowsOf(const std::vector<PerturbedObject>& objects);
 // |F_a| on the way: object, iteration, pairs, pairs below the cone (IV-A).
 PerturbHistory HistoryOf(const PerturbedObject& item);
 // What changed on average, and the failed objects by reason; two or three lines.
@@ -34,15 +35,20 @@ ResultFiles PerturbFiles();
 // would take its results for objects.
 void CheckPerturbFolder(const std::vector<std::string>& inputs, const std::filesystem::path& out);
 
-// out/after/NAME.stl for every printable result, out/before/NAME.stl for every usable input that
-// was not cut short; what an earlier call left there of the others goes. NAME.ply where single
-// precision would take more than 1e-5 of the object's size: it lies some hundred times its size
-// from the origin. Returns a line for each of these.
-std::vector<std::string> WritePerturbedMeshes(const std::vector<PerturbedObject>& objects,
-                                              const std::filesystem::path& out);
+// What is written beside the meshes.
+struct PerturbRecord {
+  std::string constants;  // perturb.toml
+  bool history = false;   // whether there is a history.csv
+  int threads = 0;        // of the picture, which does not depend on it
+};
 
-// out/sheet.png: the first printable results, and above each what it was. Nothing without one.
-void WritePerturbedSheet(const std::vector<PerturbedObject>& objects,
-                         const std::filesystem::path& out, int threads);
+// All results but the table, into a folder without any: PerturbFiles says which. after/ has every
+// printable result, before/ every usable input that was not cut short: NAME.stl, or NAME.ply where
+// single precision would take more than 1e-5 of the object's size, as it does some hundred times
+// its size from the origin. Returns a line for each of these. sheet.png has the first printable
+// results, and above each what it was; none without one.
+std::vector<std::string> WritePerturbFiles(const std::vector<PerturbedObject>& objects,
+                                           const PerturbRecord& record,
+                                           const std::filesystem::path& out);
 
 }  // namespace antigrasp

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <map>
+#include <utility>
 
 #include "antigrasp/core/csv_writer.h"
 #include "antigrasp/perturb/scored_perturbation.h"
@@ -19,6 +20,19 @@ std::string Reason(const std::string& status) {
 }
 
 }  // namespace
+
+std::vector<PerturbRow> PairsOf(const std::vector<ScoreRow>& scores) {
+  std::vector<PerturbRow> rows;
+  for (const ScoreRow& score : scores) {
+    PerturbRow row{.object = score.object, .status = score.score ? "ok" : score.status};
+    if (score.score) row.graspability_after = score.score->graspability;
+    for (const auto& [name, value] : score.extras) {
+      if (name == "baseline") row.graspability_before = value;
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
 
 PerturbMeans MeansOf(const std::vector<PerturbRow>& rows) {
   std::vector<double> before, after, turn, hausdorff, volume;
@@ -70,6 +84,17 @@ std::string PerturbMeansText(const PerturbMeans& means) {
                 means.ok, means.objects, means.graspability_before, means.graspability_after,
                 reduced, means.normal_max_deg, means.hausdorff_pct);
   return text;
+}
+
+std::string ScoreMeansText(const PerturbMeans& means) {
+  char text[200];
+  std::snprintf(text, sizeof text, "scores, %d of %d objects scored\n  graspability  %.5f\n",
+                means.ok, means.objects, means.graspability_after);
+  std::string lines = text;
+  if (means.reduction.count == 0) return lines;
+  std::snprintf(text, sizeof text, "  originals     %.5f\n  reduction     %.1f +-%.1f %%\n",
+                means.graspability_before, means.reduction.mean, means.reduction.half_width);
+  return lines + text;
 }
 
 std::string FailedText(const std::vector<PerturbRow>& rows) {

@@ -6,6 +6,7 @@
 
 #include "antigrasp/core/statistics.h"
 #include "antigrasp/perturb/perturb_table.h"
+#include "antigrasp/quality/score_table.h"
 
 namespace antigrasp {
 
@@ -19,6 +20,9 @@ struct PerturbMeans {
   double volume_pct = std::nan("");      // of the size of its change of volume, percent
 };
 
+// A table of scores as one of objects before and after: with originals (evaluate --baseline) it is.
+std::vector<PerturbRow> PairsOf(const std::vector<ScoreRow>& scores);
+
 PerturbMeans MeansOf(const std::vector<PerturbRow>& rows);
 
 // summary.csv (docs/formats.md): one row.
@@ -26,6 +30,9 @@ std::string PerturbMeansCsv(const PerturbMeans& means);
 
 // The same as two sentences without a full stop, a line break between; for a person.
 std::string PerturbMeansText(const PerturbMeans& means);
+
+// The same of PairsOf: two or four lines.
+std::string ScoreMeansText(const PerturbMeans& means);
 
 // The failed objects by reason, "1 after: open, 2 interrupted"; empty when none failed.
 std::string FailedText(const std::vector<PerturbRow>& rows);

@@ -231,12 +231,6 @@ bool IsConvex(const TriangleMesh& mesh) {
   return true;
 }
 
-const std::vector<std::string>& PolyhedronNames() {
-  static const std::vector<std::string> names{"cube",          "tetrahedron",  "octahedron",
-                                              "cuboctahedron", "dodecahedron", "icosahedron"};
-  return names;
-}
-
 TriangleMesh PlainPolyhedron(Polyhedron kind, double size) {
   const TriangleMesh unit =
       kind == Polyhedron::kCube ? PyramidCube(0.0) : ConvexHull(UnitCorners(kind));

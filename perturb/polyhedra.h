@@ -1,9 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <string>
-#include <vector>
 
+#include "antigrasp/core/choice.h"
 #include "antigrasp/core/options.h"
 #include "antigrasp/core/parallel.h"
 #include "antigrasp/mesh/triangle_mesh.h"
@@ -32,7 +32,6 @@ inline constexpr double kBestAntipodality = 70.52877936550931;
 // Whether no vertex lies in front of a face by more than 1e-6 of the mesh's size.
 bool IsConvex(const TriangleMesh& mesh);
 
-// In the order of the enumeration: "cube", "tetrahedron", ...
 enum class Polyhedron {
   kCube,
   kTetrahedron,
@@ -41,7 +40,14 @@ enum class Polyhedron {
   kDodecahedron,
   kIcosahedron
 };
-const std::vector<std::string>& PolyhedronNames();
+constexpr auto ChoicesOf(Polyhedron) {
+  return std::to_array<Choice<Polyhedron>>({{Polyhedron::kCube, "cube"},
+                                            {Polyhedron::kTetrahedron, "tetrahedron"},
+                                            {Polyhedron::kOctahedron, "octahedron"},
+                                            {Polyhedron::kCuboctahedron, "cuboctahedron"},
+                                            {Polyhedron::kDodecahedron, "dodecahedron"},
+                                            {Polyhedron::kIcosahedron, "icosahedron"}});
+}
 
 // Centred over the origin, inscribed in a cube of this edge (which the cube fills).
 TriangleMesh PlainPolyhedron(Polyhedron kind, double size);

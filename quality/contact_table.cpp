@@ -206,6 +206,20 @@ void Bind(OptionTable* table, ContactTableOptions* options) {
   Bind(table, &o.wrench);
 }
 
+std::vector<ContactRowQuality> EvaluateAllContacts(const std::vector<ContactRow>& rows,
+                                                   const WrenchResistanceOptions& options,
+                                                   int threads, const ProgressFn& progress) {
+  std::vector<ContactRowQuality> qualities(rows.size());
+  ParallelFor(
+      std::ssize(rows), threads,
+      [&](std::int64_t i) {
+        const auto slot = static_cast<std::size_t>(i);
+        qualities[slot] = EvaluateContacts(rows[slot], options);
+      },
+      progress);
+  return qualities;
+}
+
 std::string ContactCsv(const std::vector<ContactRow>& rows,
                        const std::vector<ContactRowQuality>& qualities) {
   CsvWriter csv({"id", "epsilon", "force_closure", "force_closure_signed", "wrench_resisted",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "antigrasp/core/options.h"
+#include "antigrasp/core/parallel.h"
 #include "antigrasp/quality/wrench_resistance.h"
 
 namespace antigrasp {
@@ -52,6 +53,12 @@ struct ContactRowQuality {
 
 // The row's force limit counts, not the one of the options.
 ContactRowQuality EvaluateContacts(const ContactRow& row, const WrenchResistanceOptions& options);
+
+// Of all rows, on `threads` threads (0 = all), which no value depends on.
+std::vector<ContactRowQuality> EvaluateAllContacts(const std::vector<ContactRow>& rows,
+                                                   const WrenchResistanceOptions& options,
+                                                   int threads,
+                                                   const ProgressFn& progress = nullptr);
 
 // One row a grasp: what `quality` writes of it.
 std::string ContactCsv(const std::vector<ContactRow>& rows,

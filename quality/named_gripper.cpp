@@ -91,6 +91,37 @@ void ApplyGripperFile(const std::string& path, MetricOptions* options) {
 
 std::span<const NamedGripper> NamedGrippers() { return kGrippers; }
 
+std::string GripperList() {
+  constexpr double kMillimetres = 1000.0;
+  char line[256];
+  std::snprintf(line, sizeof line, "%-12s %8s  %-19s %-16s %-19s %s\n", "name, mm", "opening",
+                "finger w x t x l", "beyond the grasp", "palm l x w x d", "");
+  std::string list = line;
+  for (const NamedGripper& gripper : kGrippers) {
+    const GripperModel& m = gripper.model;
+    const auto sizes = [](double a, double b, double c) {
+      char text[64];
+      std::snprintf(text, sizeof text, "%.4g x %.4g x %.4g", kMillimetres * a, kMillimetres * b,
+                    kMillimetres * c);
+      return std::string(text);
+    };
+    std::snprintf(
+        line, sizeof line, "%-12s %8.4g  %-19s %-16.4g %-19s ", std::string(gripper.name).c_str(),
+        kMillimetres * gripper.jaw_opening,
+        sizes(m.finger_width, m.finger_thickness, m.palm_distance + m.fingertip_overlap).c_str(),
+        kMillimetres * m.fingertip_overlap,
+        sizes(m.palm_length, m.palm_width, m.palm_depth).c_str());
+    list += line + std::string(gripper.about) + "\n";
+  }
+  return list;
+}
+
+std::string AboutGripper(const std::string& name_or_file) {
+  const NamedGripper* const named = Find(name_or_file);
+  if (named == nullptr) return name_or_file;
+  return std::string(named->about) + "; sources: docs/grippers.md";
+}
+
 void ApplyGripper(const std::string& name_or_file, MetricOptions* options) {
   if (const NamedGripper* named = Find(name_or_file)) {
     MetricOptions of_name = *options;

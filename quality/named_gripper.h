@@ -20,6 +20,12 @@ struct NamedGripper {
 // The one list. Every number's source is in docs/grippers.md.
 std::span<const NamedGripper> NamedGrippers();
 
+// The same as a table for people, millimetres.
+std::string GripperList();
+
+// A line about a named gripper; of a file its name.
+std::string AboutGripper(const std::string& name_or_file);
+
 // Sets the opening and the lengths of fingers and palm to those of a named gripper, or of a TOML
 // file with the same keys (docs/formats.md), which may set the way in, too. InputError, with
 // nothing changed, for another name, an unknown key, a value out of range and a file that leaves a

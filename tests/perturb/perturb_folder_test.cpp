@@ -150,7 +150,7 @@ TEST(PerturbFolder, MeshesAndTheSheetShowBeforeAndAfterInTheirPlaces) {
   PerturbedObject failed = Changed();
   failed.object.name = "failed.stl";
   failed.scored.result.failure = "after: open";
-  WritePerturbedMeshes({Changed(), failed}, folder.path());
+  WritePerturbFiles({Changed(), failed}, {"seed = 1\n", false, 1}, folder.path());
   EXPECT_EQ(ReadMesh(folder / "before/ball.stl").faces.size(), 12u);
   EXPECT_EQ(ReadMesh(folder / "after/ball.stl").faces.size(), 20u);
   EXPECT_TRUE(std::filesystem::exists(folder / "before/failed.stl"));
@@ -160,7 +160,7 @@ TEST(PerturbFolder, MeshesAndTheSheetShowBeforeAndAfterInTheirPlaces) {
   PerturbedObject flat = Changed();
   flat.scored.before = shapes::Box({3.0, 3.0, 0.2});
   flat.scored.result.mesh = shapes::Box({0.2, 0.2, 3.0});
-  WritePerturbedSheet({failed, flat}, folder.path(), 1);
+  WritePerturbFiles({failed, flat}, {"seed = 1\n", false, 1}, folder.path());
   const Image sheet = ReadPng(folder / "sheet.png");
   ASSERT_EQ(sheet.height, 2 * sheet.width);  // one column: the failed one is left out
   const auto dark = [&](int first) {         // width of what is drawn in half of the sheet
@@ -175,39 +175,50 @@ TEST(PerturbFolder, MeshesAndTheSheetShowBeforeAndAfterInTheirPlaces) {
   EXPECT_GT(dark(0), 3 * dark(sheet.width));
 }
 
+// As perturb does when its folder may be overwritten.
+std::vector<std::string> Fill(const shapes::TempFolder& folder,
+                              const std::vector<PerturbedObject>& objects) {
+  WriteMesh(folder / "ball.stl", shapes::Cube());
+  const ObjectSource source({(folder / "ball.stl").string()});
+  ResultFolder results(folder / "out", PerturbFiles(), source, /*overwrite=*/true);
+  std::vector<std::string> notes = WritePerturbFiles(objects, {"", false, 1}, results.path());
+  results.Commit(PerturbCsv(RowsOf(objects)));
+  return notes;
+}
+
 TEST(PerturbFolder, WhatAnEarlierCallLeftOfAnObjectThatFailsNowIsNotTakenForItsResult) {
   const shapes::TempFolder folder;
-  WritePerturbedMeshes({Changed()}, folder.path());
-  ASSERT_TRUE(std::filesystem::exists(folder / "after/ball.stl"));
+  Fill(folder, {Changed()});
+  ASSERT_TRUE(std::filesystem::exists(folder / "out/after/ball.stl"));
   PerturbedObject failed = Changed();
   failed.scored.result.failure = "after: self-intersecting";
-  WritePerturbedMeshes({failed}, folder.path());
-  EXPECT_TRUE(std::filesystem::exists(folder / "before/ball.stl"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "after/ball.stl"));
-  WritePerturbedMeshes({Refused("ball.stl", "open: 1 boundary edge")}, folder.path());
-  EXPECT_FALSE(std::filesystem::exists(folder / "before/ball.stl"));
+  Fill(folder, {failed});
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/before/ball.stl"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/after/ball.stl"));
+  Fill(folder, {Refused("ball.stl", "open: 1 boundary edge")});
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/before/ball.stl"));
 }
 
 TEST(PerturbFolder, AnObjectThatStlWouldSpoilIsWrittenAsPlyWhereItLies) {
   const shapes::TempFolder folder;
   const Eigen::Vector3d place(0.0, 900000.0, 0.0);
   PerturbedObject far = Changed();
-  EXPECT_TRUE(WritePerturbedMeshes({far}, folder.path()).empty());  // near: STL
+  EXPECT_TRUE(Fill(folder, {far}).empty());  // near: STL
   const TriangleMesh before = Transformed(far.scored.before, 1.0, place);
   const TriangleMesh after = Transformed(far.scored.result.mesh, 1.0, place);
   far.scored.before = before;
   far.scored.result.mesh = after;
-  const std::vector<std::string> notes = WritePerturbedMeshes({far}, folder.path());
+  const std::vector<std::string> notes = Fill(folder, {far});
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_EQ(notes[0].find("ball.stl: written as PLY"), 0u) << notes[0];
-  EXPECT_EQ(ReadMesh(folder / "before/ball.ply").vertices, before.vertices);
-  EXPECT_EQ(ReadMesh(folder / "after/ball.ply").vertices, after.vertices);
+  EXPECT_EQ(ReadMesh(folder / "out/before/ball.ply").vertices, before.vertices);
+  EXPECT_EQ(ReadMesh(folder / "out/after/ball.ply").vertices, after.vertices);
   // What the first call left would be taken for the result of the second.
-  EXPECT_FALSE(std::filesystem::exists(folder / "before/ball.stl"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "after/ball.stl"));
-  WritePerturbedMeshes({Changed()}, folder.path());
-  EXPECT_EQ(ReadMesh(FindMeshFile(folder / "after", "ball")).faces.size(), 20u);
-  EXPECT_FALSE(std::filesystem::exists(folder / "after/ball.ply"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/before/ball.stl"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/after/ball.stl"));
+  Fill(folder, {Changed()});
+  EXPECT_EQ(ReadMesh(FindMeshFile(folder / "out/after", "ball")).faces.size(), 20u);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/after/ball.ply"));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ TEST(SmallestAntipodality, IsKnownForTheRegularSolids) {
   for (int kind = 0; kind < 6; ++kind) {
     const TriangleMesh mesh = PlainPolyhedron(static_cast<Polyhedron>(kind), 2.0);
     EXPECT_NEAR(SmallestAntipodality(mesh).degrees, expected[kind], 1e-7)
-        << PolyhedronNames()[static_cast<std::size_t>(kind)];
+        << ChoiceNames<Polyhedron>()[static_cast<std::size_t>(kind)];
   }
   EXPECT_EQ(SmallestAntipodality(shapes::Cube()).degrees, 0.0);
   EXPECT_NEAR(kBestAntipodality, expected[1], 1e-12);
@@ -69,10 +69,10 @@ TEST(PlainPolyhedron, HasItsNameInTheOrderOfTheEnumeration) {
   const std::pair<const char*, std::size_t> expected[] = {
       {"cube", 12},          {"tetrahedron", 4},   {"octahedron", 8},
       {"cuboctahedron", 20}, {"dodecahedron", 36}, {"icosahedron", 20}};
-  ASSERT_EQ(PolyhedronNames().size(), std::size(expected));
+  ASSERT_EQ(ChoiceNames<Polyhedron>().size(), std::size(expected));
   for (int kind = 0; kind < 6; ++kind) {
     const auto& [name, faces] = expected[kind];
-    EXPECT_EQ(PolyhedronNames()[static_cast<std::size_t>(kind)], name);
+    EXPECT_EQ(ChoiceNames<Polyhedron>()[static_cast<std::size_t>(kind)], name);
     EXPECT_EQ(PlainPolyhedron(static_cast<Polyhedron>(kind), 1.0).faces.size(), faces) << name;
   }
   PolyhedronOptions options;

@@ -1,0 +1,58 @@
+#include "antigrasp/datasets/compared_set.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/rng.h"
+#include "antigrasp/datasets/objects.h"
+
+namespace antigrasp {
+
+ComparedSet ReadComparedSet(const std::string& input, LengthUnit units, int threads,
+                            const ProgressFn& progress) {
+  ComparedSet set;
+  set.input = input;
+  std::vector<std::string> statuses;
+  for (InputObject& object : LoadObjects({input}, threads, progress)) {
+    statuses.push_back(object.status);
+    if (object.ok() && SurfaceArea(object.mesh) > 0.0) {
+      // The whole name: points of two shapes of one set are never drawn alike.
+      set.streams.push_back(HashOf(FileNameOf(object.name)));
+      set.meshes.push_back(units == LengthUnit::kM
+                               ? std::move(object.mesh)
+                               : Transformed(object.mesh, MetresPer(units), {0.0, 0.0, 0.0}));
+    } else {
+      ++set.left_out;
+    }
+  }
+  set.counts = CountByStatus(statuses);
+  return set;
+}
+
+void RequireShapes(const ComparedSet& set, std::size_t least) {
+  if (set.meshes.size() >= least) return;
+  throw InputError(std::to_string(set.meshes.size()) + " solids", set.input,
+                   "at least " + std::to_string(least));
+}
+
+void KeepAtRandom(std::size_t count, std::uint64_t seed, std::uint64_t number, ComparedSet* set) {
+  std::vector<std::pair<std::uint64_t, std::size_t>> lots;
+  for (std::size_t i = 0; i < set->streams.size(); ++i) {
+    lots.emplace_back(RngStream(seed, "compared shapes", number, set->streams[i]).NextU64(), i);
+  }
+  std::sort(lots.begin(), lots.end());
+  lots.resize(std::min(count, lots.size()));
+  std::sort(lots.begin(), lots.end(),
+            [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::vector<TriangleMesh> meshes;
+  std::vector<std::uint64_t> streams;
+  for (const auto& [lot, i] : lots) {
+    meshes.push_back(std::move(set->meshes[i]));
+    streams.push_back(set->streams[i]);
+  }
+  set->meshes = std::move(meshes);
+  set->streams = std::move(streams);
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "antigrasp/core/parallel.h"
+#include "antigrasp/mesh/length_unit.h"
+#include "antigrasp/mesh/triangle_mesh.h"
+
+namespace antigrasp {
+
+// One side of a comparison on surfaces: the usable objects of an input, metres.
+struct ComparedSet {
+  std::string input;
+  std::vector<TriangleMesh> meshes;
+  std::vector<std::uint64_t> streams;  // of each one's random draws, by its name
+  int left_out = 0;                    // no solid, or without an area
+  std::string counts;                  // CountByStatus of all
+};
+
+// The objects of an input, a mesh, a folder or an SDF file, whose coordinates are in `units`.
+ComparedSet ReadComparedSet(const std::string& input, LengthUnit units, int threads,
+                            const ProgressFn& progress = nullptr);
+
+// InputError for a set of fewer shapes.
+void RequireShapes(const ComparedSet& set, std::size_t least);
+
+// Leaves `count` of the shapes at random, in their order: the first ones of a folder may be of one
+// kind. Each draws a lot by its name, and the lowest stay, in whatever order they come. `number`
+// tells the sides of a comparison apart.
+void KeepAtRandom(std::size_t count, std::uint64_t seed, std::uint64_t number, ComparedSet* set);
+
+}  // namespace antigrasp

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "antigrasp/perturb/polyhedra.h"
+
+namespace antigrasp {
+
+// What there is to check of a solid, millimetres, for people: how large it is as a mesh, its
+// smallest antipodality angle beside `phi`, which was asked for, whether it is convex, closed and
+// printable, how far it is from the plain solid.
+std::string CertificateText(const AdversarialPolyhedron& solid, double phi);
+
+}  // namespace antigrasp

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "antigrasp/quality/grasp_table.h"
+#include "antigrasp/quality/object_size.h"
+#include "antigrasp/quality/score_text.h"
+#include "antigrasp/quality/scored_object.h"
+
+namespace antigrasp {
+
+// What is kept of the objects of a set when they have been scored one by one, and what is said of
+// them all. Some hundred bytes an object.
+class ScoredSet {
+ public:
+  // `egad`: with EGAD's score in every row.
+  explicit ScoredSet(const MetricOptions& metric, bool egad = false)
+      : metric_(metric), egad_(egad), sizes_(metric) {}
+  // In the order of the set; its row of scores.csv comes back. With the original of every object,
+  // before a change, or of none.
+  ScoreRow Add(const ScoredObject& scored, const ScoredObject* original = nullptr);
+  // A sentence of which somebody is to be warned, in the order added.
+  void AddNote(std::string note) { notes_.push_back(std::move(note)); }
+
+  // InputError, naming the first object's status, when none has a score.
+  void RequireAScore(const std::string& where) const;
+  std::vector<std::string> Warnings() const;  // notes and what UnlikelySizes finds
+  // How many, their mean and what became of the candidates; of an only one the interval; how many
+  // grasps it took, unless `effort_given`; known sets beside it.
+  std::vector<std::string> Summary(bool effort_given) const;
+  std::string PairedDifference() const;  // with originals
+
+ private:
+  MetricOptions metric_;
+  bool egad_;
+  std::string first_;                       // the first one and its status
+  std::vector<double> values_, originals_;  // graspabilities, NaN where there is none
+  std::vector<std::string> notes_;
+  CandidateCount candidates_;
+  UnlikelySizes sizes_;
+  // Of an only object, and of an only pair: what its grasps say about how sure its numbers are.
+  std::string interval_;
+  std::optional<PairDifference> pair_;
+};
+
+}  // namespace antigrasp
