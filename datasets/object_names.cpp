@@ -99,7 +99,8 @@ std::string FileNameOf(const std::string& object_name) {
 std::uint64_t StreamOf(const std::string& object_name) {
   const std::size_t slash = object_name.rfind('/');
   const std::string last = slash == std::string::npos ? object_name : object_name.substr(slash + 1);
-  const std::string stem = StemAndExtension(last).first;
+  const auto [stem, extension] = StemAndExtension(last);
+  if (!extension.empty()) return HashOf(stem);
   const std::size_t bar = stem.rfind('_');  // "mug_stl", as DistinctNames writes it out
   const bool written_out = bar != std::string::npos && bar > 0 &&
                            IsMeshFile(stem.substr(0, bar) + "." + stem.substr(bar + 1));

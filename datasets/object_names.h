@@ -17,8 +17,9 @@ struct ObjectOrigin {
 std::string FileNameOf(const std::string& object_name);
 
 // The number of an object's random stream, the same alone, in any folder and beside any others:
-// HashOf the last part of its name without the extension, be that written out or not. "mug.stl",
-// "a/mug.obj" and "mug_stl" share one, as an object before and after a change does.
+// HashOf the last part of its own name without the extension. "mug.stl", "a/mug.obj" and "mug_stl",
+// the name that DistinctNames makes of the first, share one, as an object before and after a change
+// does; a file "mug_stl.obj" has another.
 std::uint64_t StreamOf(const std::string& object_name);
 
 // One name an object, no two with the same FileNameOf, so that neither rows of a table nor files

@@ -49,8 +49,8 @@ TEST(ObjectNames, TheStreamIsThatOfTheFileNameAloneWhateverItsFolderAndFormat) {
                            "mug_stl", "a/mug_obj"}) {
     EXPECT_EQ(StreamOf(name), HashOf("mug")) << name;
   }
-  for (const char* name : {"mug_2.stl", "mugs.stl", "mug/cup.stl", "a_mug.stl", "Mug.stl", "_stl",
-                           "mug_small.stl", ""}) {
+  for (const char* name : {"mug_stl.obj", "mug_obj.obj", "mug_2.stl", "mugs.stl", "mug/cup.stl",
+                           "a_mug.stl", "Mug.stl", "_stl", "mug_small.stl", ""}) {
     EXPECT_NE(StreamOf(name), HashOf("mug")) << name;
   }
   EXPECT_EQ(StreamOf("cylinders-000017"), HashOf("cylinders-000017"));
