@@ -105,6 +105,11 @@ void OptionFlags::Apply(OptionTable* table) const {
   for (const auto& [key, text] : *given_) table->ApplyValue(key, text, FlagOf(key));
 }
 
+std::string OptionFlags::Typed(const std::string& key) const {
+  const auto given = given_->find(key);
+  return given == given_->end() ? "" : FlagOf(key) + " " + given->second;
+}
+
 MetricFlags::MetricFlags(CLI::App* command)
     : command_(command),
       preset_(AddName(command, "--preset", "default",
@@ -144,13 +149,14 @@ MetricOptions MetricFlags::Resolve() const {
   Bind(&table, &options);
   options_.Apply(&table);
   if (*true_size_) options.object_min_extent = 0.0;
-  RequireFittingGripper(options, "command line");
-  WarnOfLengths(options);
+  const TypedOption typed = [this](const std::string& key) { return options_.Typed(key); };
+  RequireFittingGripper(options, "command line", typed);
+  WarnOfLengths(options, typed);
   return options;
 }
 
-void WarnOfLengths(const MetricOptions& metric) {
-  for (const std::string& text : UnlikelyLengths(metric)) spdlog::warn("{}", text);
+void WarnOfLengths(const MetricOptions& metric, const TypedOption& typed) {
+  for (const std::string& text : UnlikelyLengths(metric, typed)) spdlog::warn("{}", text);
 }
 
 void AddUnits(CLI::App* command, LengthUnit* units, const std::string& help) {

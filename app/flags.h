@@ -19,6 +19,7 @@ class OptionFlags {
   // Call after parsing: what was given, into a table with the same keys. InputError for a value out
   // of range.
   void Apply(OptionTable* table) const;
+  std::string Typed(const std::string& key) const;  // "--friction 0.3"; "" when it was not given
   bool given() const { return !given_->empty(); }
 
  private:
@@ -53,7 +54,7 @@ class MetricFlags {
 std::shared_ptr<std::string> AddGripperFlag(CLI::App* command, const std::string& group);
 
 // Warnings for lengths that can hardly be in metres (UnlikelyLengths).
-void WarnOfLengths(const MetricOptions& metric);
+void WarnOfLengths(const MetricOptions& metric, const TypedOption& typed = nullptr);
 
 // --units of a command without the metric's constants; the target must live until it has run.
 void AddUnits(CLI::App* command, LengthUnit* units, const std::string& help);

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/format.h"
 
 namespace antigrasp {
 
@@ -118,8 +119,8 @@ void Bind(OptionTable* table, MetricOptions* options) {
              "smallest bounding-box extent after rescaling, m; 0 = as it is (--true-size)");
   table->Add(
       "metric.units", &o.units,
-      "what the meshes' coordinates are in: mm, cm, m or in (of an SDF file: the side of its "
-      "cube); counts where objects keep their size");
+      "what the meshes' coordinates are in: mm, cm, m or in (of an SDF file: of the meshes "
+      "imported with one factor, else the side of its cube); counts where objects keep their size");
   BindOpening(table, &o);
   table->Add("metric.num_grasps", &o.num_grasps, 1, 1e6, "grasps scored per object");
   table->Add("metric.num_draws", &o.num_draws, 1, 1e6, "noise draws per grasp");
@@ -147,6 +148,11 @@ void Bind(OptionTable* table, MetricOptions* options) {
 void BindGripper(OptionTable* table, MetricOptions* options) {
   BindOpening(table, options);
   Bind(table, &options->gripper);
+}
+
+std::string OptionText(const std::string& key, double value, const TypedOption& typed) {
+  const std::string text = typed ? typed(key) : "";
+  return text.empty() ? key + " = " + FormatDouble(value) : text;
 }
 
 std::string MetricToml(const MetricOptions& metric, std::uint64_t seed) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,11 @@ void ApplyNoisePreset(const std::string& name, MetricOptions* options);
 
 std::vector<std::string> MetricPresetNames();
 std::vector<std::string> NoisePresetNames();
+
+// What somebody typed for the option of this key, "--jaw-opening 0.085"; "" for what nobody did.
+using TypedOption = std::function<std::string(const std::string& key)>;
+// That, or "metric.jaw_opening = 0.085" where there is none: how messages name an option.
+std::string OptionText(const std::string& key, double value, const TypedOption& typed);
 
 void Bind(OptionTable* table, MetricOptions* options);  // keys "metric.*", "gripper.*"
 // Of these the gripper's own: "metric.jaw_opening" and "gripper.*".

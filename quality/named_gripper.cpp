@@ -87,6 +87,29 @@ void ApplyGripperFile(const std::string& path, MetricOptions* options) {
   *options = read;
 }
 
+// Of the lengths that have to fit each other those that were typed, else those that are not as they
+// are by default.
+std::string WhatSetsTheFit(const MetricOptions& options, const TypedOption& typed) {
+  const MetricOptions defaults;
+  struct Length {
+    const char* key;
+    double value, by_default;
+  };
+  const Length lengths[] = {
+      {"metric.jaw_opening", options.jaw_opening, defaults.jaw_opening},
+      {"gripper.finger_thickness", options.gripper.finger_thickness,
+       defaults.gripper.finger_thickness},
+      {"gripper.palm_length", options.gripper.palm_length, defaults.gripper.palm_length}};
+  std::string typed_ones, others;
+  for (const auto& [key, value, by_default] : lengths) {
+    const bool was_typed = typed && !typed(key).empty();
+    if (!was_typed && value == by_default) continue;
+    std::string& list = was_typed ? typed_ones : others;
+    list += (list.empty() ? "" : ", ") + OptionText(key, value, typed);
+  }
+  return typed_ones.empty() ? others : typed_ones;
+}
+
 }  // namespace
 
 std::span<const NamedGripper> NamedGrippers() { return kGrippers; }
@@ -142,22 +165,24 @@ void ApplyGripper(const std::string& name_or_file, MetricOptions* options) {
   ApplyGripperFile(name_or_file, options);
 }
 
-void RequireFittingGripper(const MetricOptions& options, const std::string& origin) {
+void RequireFittingGripper(const MetricOptions& options, const std::string& origin,
+                           const TypedOption& typed) {
   if (options.collision != Collision::kGripper) return;
   const GripperModel& model = options.gripper;
   const double fingers = options.jaw_opening + 2.0 * model.finger_thickness;
   if (!(model.palm_length < fingers - kFitSlack)) return;
-  char least[32];
-  std::snprintf(least, sizeof least, "%.6g", fingers);
-  std::string hint = "--gripper sets what belongs together";
   MetricOptions lengths = options;
   lengths.units = LengthUnit::kM;  // that of meshes has no part in it
-  for (const std::string& text : UnlikelyLengths(lengths)) hint += "; " + text;
-  throw InputError(
-      "the palm is narrower than the open fingers: gripper.palm_length = " +
-          FormatDouble(model.palm_length),
-      origin,
-      std::string("at least ") + least + " m, metric.jaw_opening and two fingers (" + hint + ")");
+  const std::vector<std::string> unlikely = UnlikelyLengths(lengths, typed);
+  char expected[160];
+  std::snprintf(expected, sizeof expected,
+                "a palm of at least %.6g m (it has %.6g), the opening and two fingers; --gripper "
+                "sets what belongs together",
+                fingers, model.palm_length);
+  throw InputError(unlikely.empty() ? "the palm is narrower than the open fingers: " +
+                                          WhatSetsTheFit(options, typed)
+                                    : unlikely.front(),
+                   origin, expected);
 }
 
 std::string GripperToml(const MetricOptions& options, const std::string& about) {

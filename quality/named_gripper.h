@@ -32,9 +32,11 @@ std::string AboutGripper(const std::string& name_or_file);
 // length out: a part of another gripper would stand in for it.
 void ApplyGripper(const std::string& name_or_file, MetricOptions* options);
 
-// InputError when the palm is narrower than the open fingers that it carries. Not asked of a metric
-// that looks at the jaws alone.
-void RequireFittingGripper(const MetricOptions& options, const std::string& origin);
+// InputError when the palm is narrower than the open fingers that it carries. It names what was
+// typed, or what is not as it is by default, and the unit that a length above a metre speaks for.
+// Not asked of a metric that looks at the jaws alone.
+void RequireFittingGripper(const MetricOptions& options, const std::string& origin,
+                           const TypedOption& typed = nullptr);
 
 // The file that ApplyGripper reads, `about` as its first line.
 std::string GripperToml(const MetricOptions& options, const std::string& about);

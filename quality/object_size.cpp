@@ -60,7 +60,7 @@ std::string LengthText(double metres) {
   return text;
 }
 
-std::vector<std::string> UnlikelyLengths(const MetricOptions& options) {
+std::vector<std::string> UnlikelyLengths(const MetricOptions& options, const TypedOption& typed) {
   std::vector<std::string> texts;
   MetricOptions copy = options;
   OptionTable lengths;
@@ -71,7 +71,7 @@ std::vector<std::string> UnlikelyLengths(const MetricOptions& options) {
     const double* const* const length = std::get_if<double*>(&option.target);
     if (length == nullptr || !(**length > kMostHeld)) continue;
     const std::string number = FormatDouble(**length);
-    texts.push_back(option.key + " = " + number + " is " + LengthText(**length) +
+    texts.push_back(OptionText(option.key, **length, typed) + " is " + LengthText(**length) +
                     ": the metric's lengths are in metres, " + number + " mm are " +
                     FormatDouble(**length / 1000.0));
   }

@@ -26,7 +26,8 @@ std::string LengthText(double metres);
 
 // A sentence for every length of the metric that can hardly be in metres (an opening of more than
 // one), and for a unit that has no effect.
-std::vector<std::string> UnlikelyLengths(const MetricOptions& options);
+std::vector<std::string> UnlikelyLengths(const MetricOptions& options,
+                                         const TypedOption& typed = nullptr);
 
 // Objects whose size speaks for another unit: at true size larger than a room (5 m) or smaller than
 // a millimetre; at any size without a grasp because everything is wider than the jaws open.

@@ -113,11 +113,14 @@ TEST(GripperCli, RefusesInOneLine) {
   ExpectRefused("evaluate " + box + " --gripper pand", "the nearest name is panda\n");
   ExpectRefused("evaluate " + box + " --gripper " + dir + "none.toml", "none.toml");
   ExpectRefused("evaluate " + box + " --jaw-opening 0.085",
-                "the palm is narrower than the open fingers: gripper.palm_length = 0.08");
+                "the palm is narrower than the open fingers: --jaw-opening 0.085 (command line)");
+  ExpectRefused("evaluate " + box + " --gripper panda --gripper-palm-length 0.1",
+                "the palm is narrower than the open fingers: --gripper-palm-length 0.1 (command");
   ExpectRefused("evaluate " + box + " --gripper panda --gripper-finger-thickness -0.01",
                 "gripper.finger_thickness = -0.01");
   ExpectRefused("gripper panda --out " + dir + "g.txt", ".txt");
-  ExpectRefused("train --out " + dir + "r --set metric.jaw_opening=0.085", "the palm is narrower");
+  ExpectRefused("train --out " + dir + "r --set metric.jaw_opening=0.085",
+                "the palm is narrower than the open fingers: metric.jaw_opening = 0.085");
   ExpectRefused("train --resume " + dir + "r --gripper panda", "--resume RUN alone");
   EXPECT_FALSE(fs::exists(folder / "r"));
   const std::string text = Antigrasp("gripper panda").text;

@@ -134,9 +134,9 @@ TEST(NamedGripper, APalmNarrowerThanTheOpenFingersDoesNotFit) {
     ADD_FAILURE() << "taken";
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()),
-              "the palm is narrower than the open fingers: gripper.palm_length = 0.08 (here): "
-              "expected at least 0.105 m, metric.jaw_opening and two fingers (--gripper sets what "
-              "belongs together)");
+              "the palm is narrower than the open fingers: metric.jaw_opening = 0.085 (here): "
+              "expected a palm of at least 0.105 m (it has 0.08), the opening and two fingers; "
+              "--gripper sets what belongs together");
   }
   options.collision = Collision::kJaws;  // no palm is looked at
   EXPECT_NO_THROW(RequireFittingGripper(options, "here"));
