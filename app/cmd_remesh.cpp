@@ -27,7 +27,7 @@ struct RemeshFlags {
 
 void RemeshFile(const RemeshFlags& flags) {
   ReadShapeSetInfo(flags.input);  // only SDF files have something to remesh
-  const ObjectSource objects({flags.input});
+  const ObjectSource objects({flags.input}, GridUnit::kCube);
   ResultFolder results(flags.out, {"remesh.csv", {}, {"NAME." + flags.format}}, objects,
                        flags.overwrite);
   CsvWriter csv({"object", "status", "vertices", "faces", "volume", "area", "file"});

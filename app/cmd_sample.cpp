@@ -9,6 +9,7 @@
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/atomic_file.h"
+#include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/train/sample_set.h"
 
 namespace antigrasp {
@@ -28,6 +29,7 @@ struct SampleFlags {
 void Sample(const SampleFlags& flags) {
   const fs::path path = FindNetworks(flags.checkpoint);
   RequireNotRead(path, {flags.out});
+  RequireShapeSetName(flags.out);
   { const AtomicFile probe(flags.out); }  // refuses an unwritable target before the work
   const Checkpoint checkpoint = ReadCheckpoint(path);
   RunConfig config = NetworksFromToml(checkpoint.config, path.string());

@@ -14,7 +14,8 @@ ComparedSet ReadComparedSet(const std::string& input, LengthUnit units, int thre
   ComparedSet set;
   set.input = input;
   std::vector<std::string> statuses;
-  for (InputObject& object : LoadObjects({input}, threads, progress)) {
+  for (InputObject& object :
+       LoadObjects(ObjectSource({input}, GridUnit::kCube), threads, progress)) {
     statuses.push_back(object.status);
     if (object.ok() && SurfaceArea(object.mesh) > 0.0) {
       // The whole name: points of two shapes of one set are never drawn alike.

@@ -19,7 +19,8 @@ struct ComparedSet {
   std::string counts;                  // CountByStatus of all
 };
 
-// The objects of an input, a mesh, a folder or an SDF file, whose coordinates are in `units`.
+// The objects of an input, a mesh, a folder or an SDF file, whose coordinates are in `units`: of an
+// SDF file the side of its cube, in which a set and the samples of a network trained on it lie.
 ComparedSet ReadComparedSet(const std::string& input, LengthUnit units, int threads,
                             const ProgressFn& progress = nullptr);
 

@@ -268,6 +268,7 @@ std::vector<ImportedMesh> ImportMeshes(const std::vector<fs::path>& inputs, cons
     throw InputError("no mesh file", where, Alternatives(ReadableExtensions(), "*."));
   }
   const std::vector<std::string> names = NamesOf(sources, out);
+  RequireShapeSetName(out);
 
   // Reading and gridding count as one step each.
   const auto count = std::ssize(sources);

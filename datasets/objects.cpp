@@ -110,7 +110,7 @@ void ObjectSource::Open(const std::string& path, std::vector<ObjectOrigin>* orig
   }
 }
 
-ObjectSource::ObjectSource(const std::vector<std::string>& inputs) {
+ObjectSource::ObjectSource(const std::vector<std::string>& inputs, GridUnit unit) : unit_(unit) {
   std::vector<ObjectOrigin> origins;
   for (const std::string& input : inputs) Open(input, &origins);
   if (sources_.empty()) throw InputError("no object", inputs.front(), Expected());
@@ -150,7 +150,9 @@ InputObject ObjectSource::Load(std::int64_t i) const {
                        : from.is_folder ? FromFileInFolder(source.file)
                                         : FromFile(source.file);
   object.name = source.name;
-  if (from.set && from.set->info().side > 0.0) object.unit = from.set->info().side;
+  if (from.set && from.set->info().side > 0.0 && unit_ == GridUnit::kOfFiles) {
+    object.mesh = Transformed(object.mesh, from.set->info().side, Eigen::Vector3d::Zero());
+  }
   object.stream = source.stream;
   return object;
 }

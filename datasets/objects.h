@@ -17,9 +17,14 @@ struct InputObject {
   TriangleMesh mesh;
   std::string status;  // "ok", or why there is no usable solid ("open: 12 boundary edges", ...)
   std::string note;    // what was repaired; may be empty
-  double unit = 1.0;   // of the mesh, in that of the file which a grid was imported from
   std::uint64_t stream = 0;  // of its random draws: StreamOf its own name, beside any others
   bool ok() const { return status == "ok"; }
+};
+
+// The unit of meshes that are read from the grids of an SDF file.
+enum class GridUnit {
+  kOfFiles,  // that of the meshes which were imported, where the file knows it (/sdf@side)
+  kCube      // the side of the cube: sets that lie in it are alike
 };
 
 // The objects of mesh files, folders (searched recursively) and SDF files, in the order given,
@@ -28,7 +33,7 @@ struct InputObject {
 class ObjectSource {
  public:
   // InputError for a missing path, for a file of unknown kind and for no object at all.
-  explicit ObjectSource(const std::vector<std::string>& inputs);
+  explicit ObjectSource(const std::vector<std::string>& inputs, GridUnit unit = GridUnit::kOfFiles);
   ~ObjectSource();
   std::int64_t size() const;
   const std::string& name(std::int64_t i) const;
@@ -47,6 +52,7 @@ class ObjectSource {
   struct Source;  // an object of one
   void Open(const std::string& path, std::vector<ObjectOrigin>* origins);
 
+  GridUnit unit_;
   std::vector<Input> inputs_;
   std::vector<Source> sources_;
 };

@@ -9,6 +9,7 @@
 #include "antigrasp/core/file_kind.h"
 #include "antigrasp/datasets/hdf5_damage.h"
 #include "antigrasp/datasets/hdf5_file.h"
+#include "antigrasp/mesh/mesh_file.h"
 
 namespace antigrasp {
 namespace {
@@ -163,8 +164,14 @@ struct ShapeSetWriter::Impl {
   }
 };
 
+void RequireShapeSetName(const std::filesystem::path& path) {
+  if (!IsMeshFile(path)) return;
+  throw InputError("the name of a mesh", path.string(), "one for an SDF file, as NAME.h5");
+}
+
 ShapeSetWriter::ShapeSetWriter(const std::filesystem::path& path, ShapeSet about, std::size_t count)
     : impl_(std::make_unique<Impl>(path, std::move(about), count)) {
+  RequireShapeSetName(path);
   impl_->about.names.clear();
   impl_->about.grids.clear();
 }

@@ -20,6 +20,9 @@ struct ShapeSet {
   double side = 0.0;  // of the unit cube, in the unit of the meshes it came from; 0: no one length
 };
 
+// InputError for a name that says mesh ("mug.obj"): an SDF file under it would take a mesh's place.
+void RequireShapeSetName(const std::filesystem::path& path);
+
 // HDF5 layout in docs/formats.md: dataset /sdf float32 [N, n, n, n] (z, y, x; chunked, shuffled,
 // deflated) with its attributes sign = "positive inside", unit and side, /names, attributes format
 // = "antigrasp.sdf", version, kind, seed, spacing, origin, truncation, provenance. Written grid by
@@ -27,7 +30,7 @@ struct ShapeSet {
 class ShapeSetWriter {
  public:
   // `about`: everything but its names and grids, of which `count` will follow. InputError for a
-  // path that cannot be written.
+  // path that cannot be written and by RequireShapeSetName.
   ShapeSetWriter(const std::filesystem::path& path, ShapeSet about, std::size_t count);
   ~ShapeSetWriter();
   // Throws RuntimeFailure when the disk is full. One thread at a time.

@@ -7,7 +7,7 @@
 namespace antigrasp {
 
 // What the coordinates of a mesh are in: none of the formats that are read says so. An SDF file's
-// unit is the side of its cube.
+// unit is that of the meshes which it was imported from, else the side of its cube.
 enum class LengthUnit { kMm, kCm, kM, kIn };
 constexpr auto ChoicesOf(LengthUnit) {
   return std::to_array<Choice<LengthUnit>>({{LengthUnit::kMm, "mm"},

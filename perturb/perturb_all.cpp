@@ -44,9 +44,6 @@ std::vector<PerturbedObject> PerturbAll(std::vector<InputObject> inputs,
   ParallelFor(std::ssize(inputs), threads, [&](std::int64_t i) {
     PerturbedObject& item = objects[static_cast<std::size_t>(i)];
     item.object = std::move(inputs[static_cast<std::size_t>(i)]);
-    if (item.object.unit != 1.0) {  // of an imported set: results keep the unit of its files
-      item.object.mesh = Transformed(item.object.mesh, item.object.unit, Eigen::Vector3d::Zero());
-    }
     std::int64_t at = 0;
     try {
       if (item.object.ok()) {

@@ -7,9 +7,9 @@
 
 namespace antigrasp {
 
-// Perturbs and scores every usable object, in the unit of the files that an imported set came from.
-// Once `stop` says so, or `progress` throws Interrupted, what is not done is marked as interrupted
-// and the rest is kept. Same results for any number of threads (0 = all).
+// Perturbs and scores every usable object. Once `stop` says so, or `progress` throws Interrupted,
+// what is not done is marked as interrupted and the rest is kept. Same results for any number of
+// threads (0 = all).
 std::vector<PerturbedObject> PerturbAll(std::vector<InputObject> inputs,
                                         const PerturbSettings& settings, int threads,
                                         const std::function<bool()>& stop,

@@ -118,7 +118,7 @@ TEST_F(UnitsCli, SizesThatSpeakForAnotherUnitAreWarnedOf) {
   }
   // An opening that no palm carries is refused, by the same words.
   const std::string metres =
-      "metric.jaw_opening = 85 is 85 m: the metric's lengths are in metres, 85 mm are 0.085";
+      "--jaw-opening 85 is 85 m: the metric's lengths are in metres, 85 mm are 0.085";
   ExpectRefused("evaluate " + File("mm.obj") + "--jaw-opening 85", metres);
   const Outcome jaws = Antigrasp("evaluate " + File("mm.obj") + kFewGrasps +
                                  "--collision jaws --jaw-opening 85 " + out);
@@ -206,6 +206,50 @@ TEST_F(UnitsCli, CompareMeasuresInMetres) {
     ++lengths;
   }
   EXPECT_EQ(lengths, 1);
+}
+
+// A box of 25 x 30 x 80, to a third of a node of 80 / 28.
+void ExpectTheBox(const Eigen::Vector3d& extent, const std::string& where) {
+  EXPECT_LT((extent - Eigen::Vector3d(25.0, 30.0, 80.0)).cwiseAbs().maxCoeff(), 1.0)
+      << where << extent.transpose();
+}
+
+TEST_F(UnitsCli, AnImportedSetHasTheTrueSizeOfItsFilesInEveryCommand) {
+  const std::string set = File("set.h5"), true_size = "--true-size --units mm --out ";
+  ASSERT_EQ(Antigrasp("dataset import " + File("mm.obj") + "--out " + set).code, 0);
+  ASSERT_EQ(Antigrasp("evaluate " + set + kFewGrasps + true_size + File("s.csv")).code, 0);
+  const auto score = CsvRows(folder / "s.csv").front();
+  EXPECT_EQ(score.at("metres_per_unit"), "0.001");
+  ExpectTheBox(
+      {AsNumber(score, "extent_x"), AsNumber(score, "extent_y"), AsNumber(score, "extent_z")},
+      "evaluate");
+  ASSERT_EQ(Antigrasp("perturb random " + set + kFewGrasps + "--iterations 0 --subdivide 100 " +
+                      true_size + File("p"))
+                .code,
+            0);
+  ExpectTheBox(Bounds(ReadMesh(folder / "p/before/mm.stl")).Extent(), "perturb");
+  // To what single precision leaves of an STL file.
+  EXPECT_NEAR(AsNumber(CsvRows(folder / "p/perturb.csv").front(), "graspability_before"),
+              AsNumber(score, "graspability"), 0.05 * AsNumber(score, "graspability"));
+  ASSERT_EQ(Antigrasp("export " + set + true_size + File("e")).code, 0);
+  ExpectTheBox(Bounds(ReadMesh(folder / "e/mm.stl")).Extent(), "export");
+  ASSERT_EQ(Antigrasp("poses " + set + "--units mm --out " + File("poses.csv")).code, 0);
+  for (const auto& row : CsvRows(folder / "poses.csv")) {
+    EXPECT_GT(AsNumber(row, "com_height"), 0.011);
+    EXPECT_LT(AsNumber(row, "com_height"), 0.042);
+  }
+  // What the warnings say of sizes is of the same one.
+  const Outcome metres = Antigrasp("evaluate " + set + kFewGrasps + "--true-size");
+  EXPECT_TRUE(Says(metres, " m: are the coordinates in mm? --units mm")) << metres.text;
+  // Without one factor for the set there is the cube alone.
+  ASSERT_EQ(
+      Antigrasp("dataset import " + File("mm.obj") + "--scale each --out " + File("each.h5")).code,
+      0);
+  ASSERT_EQ(
+      Antigrasp("evaluate " + File("each.h5") + kFewGrasps + "--true-size --out " + File("s.csv"))
+          .code,
+      0);
+  EXPECT_LT(AsNumber(CsvRows(folder / "s.csv").front(), "extent_z"), 1.0);
 }
 
 TEST_F(UnitsCli, WhatDoesNotGoTogetherIsRefused) {

@@ -141,12 +141,19 @@ TEST(ImportMeshes, OneFactorIsKeptInTheFileAsTheSideOfTheCubeInTheMeshesUnit) {
   EXPECT_NEAR(set.side, 80.0, 1e-12);
   WriteShapeSet(folder / "again.h5", set);
   EXPECT_EQ(ReadFile(folder / "again.h5"), ReadFile(folder / "set.h5"));
-  EXPECT_NEAR(ObjectSource({(folder / "set.h5").string()}).Load(0).unit, 80.0, 1e-12);
+  const auto longest = [&](const char* file, GridUnit unit) {
+    const ObjectSource source({(folder / file).string()}, unit);
+    return Bounds(source.Load(0).mesh).Extent().maxCoeff();
+  };
+  const double in_cube = longest("set.h5", GridUnit::kCube);
+  EXPECT_NEAR(in_cube, 28.0 / 32.0, 0.5 / 32.0);
+  EXPECT_NEAR(longest("set.h5", GridUnit::kOfFiles), 80.0 * in_cube, 1e-9);
   options.scale = ImportScale::kEach;  // one side for each: none for the set
   ImportMeshes({path}, folder / "each.h5", options);
   EXPECT_EQ(ReadShapeSetInfo(folder / "each.h5").side, 0.0);
-  EXPECT_EQ(ObjectSource({(folder / "each.h5").string()}).Load(0).unit, 1.0);
-  EXPECT_EQ(ObjectSource({path.string()}).Load(0).unit, 1.0);
+  EXPECT_EQ(longest("each.h5", GridUnit::kOfFiles), longest("each.h5", GridUnit::kCube));
+  EXPECT_THROW(ImportMeshes({path}, folder / "set.obj", options), InputError);  // a mesh's name
+  EXPECT_FALSE(std::filesystem::exists(folder / "set.obj"));
 }
 
 TEST(ImportMeshes, DistancesOfASphereAreExactUpToItsFacets) {
