@@ -55,6 +55,7 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
   std::fputs(PerturbSummary(objects).c_str(), stdout);
   const bool any = MeansOf(rows).ok > 0;
   if (any) {
+    std::printf("%s\n", ScoredOnText(objects, settings.metric).c_str());
     std::printf("meshes before and after, their picture (sheet.png) and perturb.csv in %s\n",
                 flags.out.c_str());
   }

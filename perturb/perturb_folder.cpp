@@ -1,5 +1,6 @@
 #include "antigrasp/perturb/perturb_folder.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "antigrasp/core/atomic_file.h"
@@ -8,6 +9,7 @@
 #include "antigrasp/mesh/place.h"
 #include "antigrasp/perturb/perturb_row.h"
 #include "antigrasp/perturb/perturb_summary.h"
+#include "antigrasp/quality/sampling_effort.h"
 #include "antigrasp/render/contact_sheet.h"
 
 namespace antigrasp {
@@ -103,6 +105,20 @@ std::string PerturbSummary(const std::vector<PerturbedObject>& objects) {
   return text + "\n" + (failed.empty() ? "" : "failed: " + failed + "\n");
 }
 
+std::string ScoredOnText(const std::vector<PerturbedObject>& objects, const MetricOptions& metric) {
+  const auto split = std::count_if(objects.begin(), objects.end(), [](const auto& item) {
+    return item.scored.before.faces.size() > item.object.mesh.faces.size();
+  });
+  std::string text = "graspabilities on " + std::to_string(metric.num_grasps) +
+                     " grasps an object, of the meshes in before/ and after/";
+  if (split > 0) text += " (" + std::to_string(split) + " subdivided)";
+  MetricOptions few = metric;
+  RaiseEffortForFew(1, &few);
+  if (few.num_grasps == metric.num_grasps) return text;
+  return text + "; evaluate takes " + std::to_string(few.num_grasps) + " of up to " +
+         std::to_string(kFewObjects) + " objects";
+}
+
 ResultFiles PerturbFiles() {
   return {"perturb.csv",
           {"perturb.toml", "history.csv", "summary.csv", "sheet.png"},
@@ -114,7 +130,7 @@ void CheckPerturbFolder(const std::vector<std::string>& inputs, const fs::path& 
     const fs::path path = fs::absolute(input).lexically_normal();
     const fs::path folder = fs::is_directory(path) ? path : path.parent_path();
     if (!IsMeshFile(path) && !fs::is_directory(path)) continue;
-    for (const fs::path& written : {out, out / "before", out / "after"}) {
+    for (const fs::path& written : {out / "before", out / "after"}) {
       if (fs::exists(written) && fs::equivalent(folder, written)) {
         throw InputError("the results would be written over the inputs", "--out " + out.string(),
                          "another folder than that of " + input);

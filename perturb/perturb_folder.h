@@ -31,9 +31,13 @@ std::string PerturbSummary(const std::vector<PerturbedObject>& objects);
 // All that may lie in the folder of results.
 ResultFiles PerturbFiles();
 
-// InputError when the folder of results would be one that objects are read from: the next call
-// would take its results for objects.
+// InputError when results would come to lie among the files that objects are read from: when these
+// are in out/before or out/after.
 void CheckPerturbFolder(const std::vector<std::string>& inputs, const std::filesystem::path& out);
+
+// What the graspabilities of perturb.csv were scored on, a line beside the summary: `evaluate` may
+// take more grasps of the same object, and an object that was subdivided is another mesh.
+std::string ScoredOnText(const std::vector<PerturbedObject>& objects, const MetricOptions& metric);
 
 // What is written beside the meshes.
 struct PerturbRecord {

@@ -215,9 +215,45 @@ TEST(PerturbCli, RefusesBadInputInOneLineAndWritesNothing) {
   ExpectRefused("perturb random " + ball + out + " --limit none", "one of original, step");
   ExpectRefused("perturb rotation " + ball + out + " --beta 0", "rotation.beta = 0");
   ExpectRefused("perturb exhaustive " + ball + out + " --cone 81", "perturb.cone = 81");
-  ExpectRefused("perturb random " + ball + " --out " + dir + "in", "over the inputs");
+  fs::create_directory(folder / "before");
+  fs::copy_file(folder / "in/ball.stl", folder / "before/ball.stl");
+  ExpectRefused("perturb random " + dir + "before --out " + dir, "over the inputs");
+  ExpectRefused("perturb random " + dir + "before/ball.stl --out " + dir, "over the inputs");
   ExpectRefused("perturb random " + ball + " --out " + dir + "file", "a folder");
   EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(PerturbCli, FillsTheFolderOfItsInputsWhereNothingMeetsThem) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/", few = " --num-grasps 5 --num-draws 1 ";
+  fs::create_directory(folder / "in");
+  WriteMesh(folder / "in/ball.stl", shapes::Sphere(1.0, 2));
+  const std::string before = ReadFile(folder / "in/ball.stl");
+  const std::string perturb = "perturb random " + dir + "in --iterations 5" + few + "--out ";
+  const Outcome outcome = Antigrasp(perturb + dir + "in");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_EQ(ReadFile(folder / "in/ball.stl"), before);
+  EXPECT_TRUE(fs::exists(folder / "in/after/ball.stl"));
+  // The next call would read its own results and write over them.
+  ExpectRefused(perturb + dir + "in --overwrite", "would be written over an object's file");
+}
+
+TEST(PerturbCli, SaysOnHowManyGraspsItsScoresAre) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteMesh(folder / "box.stl", shapes::Box({1.0, 1.2, 2.0}));
+  const std::string perturb = "perturb random " + dir + "box.stl --iterations 5 --num-draws 1 ";
+  const Outcome outcome = Antigrasp(perturb + "--out " + dir + "p");
+  EXPECT_NE(outcome.text.find("graspabilities on 100 grasps an object, of the meshes in before/ "
+                              "and after/ (1 subdivided); evaluate takes 1000 of up to 100 "
+                              "objects\n"),
+            std::string::npos)
+      << outcome.text;
+  const Outcome many = Antigrasp(perturb + "--subdivide 100 --num-grasps 1000 --out " + dir + "q");
+  EXPECT_NE(many.text.find("graspabilities on 1000 grasps an object, of the meshes in before/ and "
+                           "after/\n"),
+            std::string::npos)
+      << many.text;
 }
 
 TEST(PerturbCli, KeepsTheObjectsThatAreDoneOnCtrlC) {
