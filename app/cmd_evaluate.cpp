@@ -10,6 +10,7 @@
 #include "antigrasp/app/score_objects.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/quality/grasp_table.h"
+#include "antigrasp/quality/sampling_effort.h"
 
 namespace antigrasp {
 namespace {
@@ -54,7 +55,7 @@ void WarnOfOtherName(const ObjectSource& objects, const ObjectSource& originals)
 void EvaluateHardest(const EvaluateFlags& flags, const ObjectSource& objects,
                      const Scoring& scoring) {
   const HardestOfSet found = FindHardest(objects, flags.inputs.front(), flags.hardest, scoring);
-  WriteScores(flags, scoring.metric, HardestCsv(found.objects));
+  WriteScores(flags, scoring.metric, HardestCsv(found));
   PrintLines(found.summary);
 }
 
@@ -129,6 +130,7 @@ void AddEvaluateCommand(CLI::App* app) {
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
   AddThreads(command, &flags->threads, "; scores do not depend on it");
   const auto metric = std::make_shared<MetricFlags>(command);
+  command->footer(EffortRule());
   command->callback([flags, metric] { Evaluate(*flags, *metric); });
 }
 

@@ -18,6 +18,7 @@
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/mesh_format.h"
 #include "antigrasp/quality/object_size.h"
+#include "antigrasp/quality/sampling_effort.h"
 
 namespace antigrasp {
 namespace {
@@ -56,7 +57,7 @@ std::vector<std::int64_t> ChooseHardest(const ObjectSource& objects, const Expor
                                         const Scoring& scoring,
                                         const std::filesystem::path& folder) {
   const HardestOfSet hardest = FindHardest(objects, flags.inputs.front(), flags.hardest, scoring);
-  WriteFileAtomic(folder / kScores, HardestCsv(hardest.objects));
+  WriteFileAtomic(folder / kScores, HardestCsv(hardest));
   WriteFileAtomic(folder / kConstants, MetricToml(scoring.metric, flags.seed));
   for (const std::string& line : hardest.summary) std::fprintf(stderr, "%s\n", line.c_str());
   std::vector<std::int64_t> places;
@@ -145,7 +146,9 @@ void AddExportCommand(CLI::App* app) {
   CLI::Option* const true_size =
       command->add_flag("--true-size", flags->true_size, "as large as it is, not --size-mm");
   true_size->excludes("--size-mm");
-  AddUnits(command, &flags->units, " (of an SDF file: the side of its cube), with --true-size");
+  AddUnits(command, &flags->units,
+           " (of an SDF file: of the meshes imported with one factor, else the side of its cube), "
+           "with --true-size");
   command->get_option("--units")->needs(true_size);
   AddChoice(command, "--pose", &flags->pose,
             "as-is: the object's own axes, so that grasps and poses go with the file; print: "
@@ -161,6 +164,7 @@ void AddExportCommand(CLI::App* app) {
   PrintOptions defaults;
   OptionTable table;
   Bind(&table, &defaults);
+  command->footer(EffortRule());
   const OptionFlags print_flags(command, table, "Print check");
   command->callback([flags, print_flags, metric_flags] {
     if (flags->hardest == 0 && metric_flags->given()) {

@@ -10,6 +10,7 @@
 #include "antigrasp/app/network_commands.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/version.h"
+#include "antigrasp/quality/sampling_effort.h"
 #include "antigrasp/report/make_report.h"
 #include "antigrasp/report/page/page.h"
 #include "antigrasp/report/page/report_template.h"
@@ -95,6 +96,7 @@ void AddReportCommand(CLI::App* app) {
           ->capture_default_str();
   AddThreads(command, &settings.threads, "; no byte depends on it");
   const auto metric = std::make_shared<MetricFlags>(command);
+  command->footer(EffortRule());
   command->callback([flags, metric, seed] {
     flags->settings.metric = metric->Resolve();
     flags->settings.raise_effort = !metric->effort_given();

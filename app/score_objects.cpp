@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "antigrasp/app/console.h"
+#include "antigrasp/core/error.h"
 #include "antigrasp/core/ordered_stream.h"
+#include "antigrasp/quality/sampling_effort.h"
 
 namespace antigrasp {
 
@@ -62,16 +64,24 @@ HardestOfSet FindHardest(const ObjectSource& objects, const std::string& where, 
   }
   Scoring fresh = scoring;
   fresh.seed = FreshSeed(scoring.seed);
+  if (!scoring.effort_given) RaiseEffortForFew(1, &fresh.metric);
   ConsoleObserver console;
-  HardestOfSet found;
-  found.objects = FindHardest(
-      std::move(rows), count,
-      [&](std::int64_t place) {
-        return ScoreObject(objects.Load(place), objects.stream(place), fresh).score;
-      },
-      scoring.threads, console.Phase("scoring the hardest again"));
-  found.summary = set.Summary(scoring.effort_given);
-  found.summary.push_back(HardestText(found.objects, objects.size()));
+  HardestOfSet found{
+      FindHardest(
+          std::move(rows), count,
+          [&](std::int64_t place) {
+            return ScoreObject(objects.Load(place), objects.stream(place), fresh).score;
+          },
+          scoring.threads, console.Phase("scoring the hardest again")),
+      set.Summary(scoring.effort_given)};
+  if (found.objects.empty()) {
+    throw InputError("no object has a grasp; " + FirstNames(found.no_grasps), where,
+                     "objects that the gripper can hold");
+  }
+  const int grasps = fresh.metric.num_grasps;
+  for (std::string& line : HardestText(found, grasps > scoring.metric.num_grasps ? grasps : 0)) {
+    found.summary.push_back(std::move(line));
+  }
   return found;
 }
 

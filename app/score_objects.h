@@ -34,9 +34,9 @@ ScoredSet ScoreObjects(const ObjectSource& objects, const std::string& where,
 // --hardest N; 0 when it is not given.
 CLI::Option* AddHardestFlag(CLI::App* command, int* count, const std::string& help);
 
-// The N hardest of the objects, scored again, and what is to be said of it.
-struct HardestOfSet {
-  std::vector<HardestObject> objects;
+// The N hardest of the objects, scored again, and what is to be said of it. The second time they
+// are few, and get as many grasps as few objects do. InputError when none has a grasp.
+struct HardestOfSet : HardestObjects {
   std::vector<std::string> summary;
 };
 HardestOfSet FindHardest(const ObjectSource& objects, const std::string& where, int count,

@@ -5,17 +5,24 @@
 #include <utility>
 
 #include "antigrasp/core/statistics.h"
+#include "antigrasp/quality/score_text.h"
 
 namespace antigrasp {
 
-std::vector<HardestObject> FindHardest(std::vector<ScoreRow> rows, int count,
-                                       const ScoreAgain& again, int threads,
-                                       const ProgressFn& progress) {
-  std::vector<HardestObject> hardest;
+HardestObjects FindHardest(std::vector<ScoreRow> rows, int count, const ScoreAgain& again,
+                           int threads, const ProgressFn& progress) {
+  HardestObjects found;
+  found.of = std::ssize(rows);
+  std::vector<HardestObject>& hardest = found.objects;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!rows[i].score) continue;
-    const double value = rows[i].score->graspability;
-    hardest.push_back({static_cast<std::int64_t>(i), std::move(rows[i]), value});
+    if (!rows[i].score) {
+      ++found.not_scored;
+    } else if (rows[i].score->num_grasps == 0) {
+      found.no_grasps.push_back(rows[i].object);
+    } else {
+      const double value = rows[i].score->graspability;
+      hardest.push_back({static_cast<std::int64_t>(i), std::move(rows[i]), value});
+    }
   }
   std::sort(hardest.begin(), hardest.end(), [](const HardestObject& a, const HardestObject& b) {
     return std::tie(a.chosen_by, a.row.object) < std::tie(b.chosen_by, b.row.object);
@@ -24,33 +31,42 @@ std::vector<HardestObject> FindHardest(std::vector<ScoreRow> rows, int count,
   ParallelFor(
       std::ssize(hardest), threads,
       [&](std::int64_t i) {
-        HardestObject& found = hardest[static_cast<std::size_t>(i)];
-        const Graspability fresh = again(found.place);
-        found.fresh = fresh.value;
-        found.row.extras.emplace_back("graspability_fresh_draws", fresh.value);
-        found.row.extras.emplace_back("fresh_ci_low", fresh.ci_low);
-        found.row.extras.emplace_back("fresh_ci_high", fresh.ci_high);
+        HardestObject& object = hardest[static_cast<std::size_t>(i)];
+        const Graspability fresh = again(object.place);
+        object.fresh = fresh.value;
+        object.row.extras.emplace_back("graspability_fresh_draws", fresh.value);
+        object.row.extras.emplace_back("fresh_ci_low", fresh.ci_low);
+        object.row.extras.emplace_back("fresh_ci_high", fresh.ci_high);
       },
       progress);
-  return hardest;
+  return found;
 }
 
-std::string HardestCsv(const std::vector<HardestObject>& hardest) {
+std::string HardestCsv(const HardestObjects& hardest) {
   ScoreTable table;
-  for (const HardestObject& found : hardest) table.Add(found.row);
+  for (const HardestObject& object : hardest.objects) table.Add(object.row);
   return table.Csv();
 }
 
-std::string HardestText(const std::vector<HardestObject>& hardest, std::int64_t of) {
+std::vector<std::string> HardestText(const HardestObjects& hardest, int more_grasps) {
   std::vector<double> chosen_by, fresh;
-  for (const HardestObject& found : hardest) {
-    chosen_by.push_back(found.chosen_by);
-    fresh.push_back(found.fresh);
+  for (const HardestObject& object : hardest.objects) {
+    chosen_by.push_back(object.chosen_by);
+    fresh.push_back(object.fresh);
   }
-  return "the " + std::to_string(hardest.size()) + " hardest of " + std::to_string(of) +
-         ": mean graspability " + MeanText(MeanWithInterval(chosen_by), 5) +
-         " by the scores that chose them, " + MeanText(MeanWithInterval(fresh), 5) +
-         " under fresh draws";
+  std::string text = "the " + std::to_string(hardest.objects.size()) + " hardest of " +
+                     std::to_string(hardest.of) + ": mean graspability " +
+                     MeanText(MeanWithInterval(chosen_by), 5) + " by the scores that chose them, " +
+                     MeanText(MeanWithInterval(fresh), 5) + " under fresh draws";
+  if (more_grasps > 0) text += " of " + std::to_string(more_grasps) + " grasps";
+  std::vector<std::string> lines = {text};
+  if (!hardest.no_grasps.empty()) {
+    lines.push_back("not among them, as they offer no grasp: " + FirstNames(hardest.no_grasps));
+  }
+  if (hardest.not_scored > 0) {
+    lines.push_back("not among them, as they have no score: " + std::to_string(hardest.not_scored));
+  }
+  return lines;
 }
 
 }  // namespace antigrasp

@@ -18,21 +18,30 @@ struct HardestObject {
   double chosen_by = 0.0, fresh = 0.0;  // graspabilities
 };
 
+struct HardestObjects {
+  std::vector<HardestObject> objects;  // lowest first
+  // Of the set's others: without any grasp. A graspability of 0 for want of one says that the
+  // object is too wide, or that the gripper finds no way in: not how well it is held.
+  std::vector<std::string> no_grasps;
+  std::int64_t not_scored = 0;
+  std::int64_t of = 0;  // all
+};
+
 // Scores the object of this place in the set once more, with FreshSeed; any thread may call.
 using ScoreAgain = std::function<Graspability(std::int64_t place)>;
 
-// The objects with the `count` lowest graspabilities, lowest first; of equal ones by name, so that
-// no order of the objects matters. `rows` are those of the whole set. All usable ones when there
-// are fewer.
-std::vector<HardestObject> FindHardest(std::vector<ScoreRow> rows, int count,
-                                       const ScoreAgain& again, int threads,
-                                       const ProgressFn& progress);
+// The objects with the `count` lowest graspabilities of those that have a grasp; of equal ones by
+// name, so that no order of the objects matters. All when there are fewer. `rows` are those of the
+// whole set.
+HardestObjects FindHardest(std::vector<ScoreRow> rows, int count, const ScoreAgain& again,
+                           int threads, const ProgressFn& progress);
 
 // Their rows as scores.csv.
-std::string HardestCsv(const std::vector<HardestObject>& hardest);
+std::string HardestCsv(const HardestObjects& hardest);
 
 // "the 5 hardest of 200: mean graspability 0.00112 by the scores that chose them, 0.00131 under
-// fresh draws".
-std::string HardestText(const std::vector<HardestObject>& hardest, std::int64_t of);
+// fresh draws of 1000 grasps"; the number when the second scores took `more_grasps` than the first
+// ones, else 0. Further lines for those that were left out of the choice.
+std::vector<std::string> HardestText(const HardestObjects& hardest, int more_grasps);
 
 }  // namespace antigrasp

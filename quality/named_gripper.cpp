@@ -174,14 +174,15 @@ void RequireFittingGripper(const MetricOptions& options, const std::string& orig
   MetricOptions lengths = options;
   lengths.units = LengthUnit::kM;  // that of meshes has no part in it
   const std::vector<std::string> unlikely = UnlikelyLengths(lengths, typed);
+  if (!unlikely.empty()) {
+    throw InputError(unlikely.front(), origin, "metres; --gripper sets what belongs together");
+  }
   char expected[160];
   std::snprintf(expected, sizeof expected,
                 "a palm of at least %.6g m (it has %.6g), the opening and two fingers; --gripper "
                 "sets what belongs together",
                 fingers, model.palm_length);
-  throw InputError(unlikely.empty() ? "the palm is narrower than the open fingers: " +
-                                          WhatSetsTheFit(options, typed)
-                                    : unlikely.front(),
+  throw InputError("the palm is narrower than the open fingers: " + WhatSetsTheFit(options, typed),
                    origin, expected);
 }
 

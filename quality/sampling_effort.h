@@ -17,6 +17,9 @@ inline constexpr int kGraspsOfFew = 1000;
 // of them the options stay as they are.
 void RaiseEffortForFew(std::int64_t objects, MetricOptions* options);
 
+// The rule, for the help of commands that keep to it.
+std::string EffortRule();
+
 // What was decided, a line for people: "1000 grasps an object, as there are at most 100 objects".
 std::string EffortText(std::int64_t objects, const MetricOptions& options);
 

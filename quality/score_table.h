@@ -22,7 +22,9 @@ struct ScoreSummary {
 // nullopt when the object is not evaluable.
 std::optional<ScoreSummary> SummaryOf(const Graspability& score);
 
-// What `evaluate` adds, in this order; older tables have the first four at most.
+// What `evaluate` adds and is read again, in this order; older tables have the first four at most.
+// Percentiles among known sets (ScoredSet) stand behind the extents and are not read: they follow
+// from the score.
 inline constexpr std::array kScoreExtras = {"seconds",
                                             "egad",
                                             "baseline",

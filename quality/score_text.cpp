@@ -112,6 +112,16 @@ std::string KnownText(double graspability, bool mean, const MetricOptions& metri
   return text;
 }
 
+std::string FirstNames(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 3;
+  std::string text = std::to_string(names.size()) + ": ";
+  for (std::size_t i = 0; i < std::min(kShown, names.size()); ++i) {
+    text += (i == 0 ? "" : ", ") + names[i];
+  }
+  if (names.size() <= kShown) return text;
+  return text + " and " + std::to_string(names.size() - kShown) + " more";
+}
+
 std::string SharedDrawsText(const std::vector<std::uint64_t>& streams) {
   std::map<std::uint64_t, int> sharers;
   int most = 0;

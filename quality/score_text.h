@@ -38,6 +38,9 @@ std::string MeanScoreText(const std::vector<double>& scores, const MetricOptions
 // there are none at these constants. `mean`: it is that of several objects.
 std::string KnownText(double graspability, bool mean, const MetricOptions& metric);
 
+// "4: a.stl, b.stl, c.stl and 1 more".
+std::string FirstNames(const std::vector<std::string>& names);
+
 // That objects meet the same draws because they share a random stream, as in a data set of folders
 // in which all have one name; "" where all have their own.
 std::string SharedDrawsText(const std::vector<std::uint64_t>& streams);

@@ -8,6 +8,16 @@
 #include "antigrasp/quality/sampling_effort.h"
 
 namespace antigrasp {
+namespace {
+
+// "harder_than_cylinders_adversarial_pct".
+std::string PercentileColumn(const KnownSet& set) {
+  std::string name = "harder_than_" + std::string(set.name) + "_pct";
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+}  // namespace
 
 ScoreRow ScoredSet::Add(const ScoredObject& scored, const ScoredObject* original) {
   const double value = scored.Value();
@@ -16,17 +26,28 @@ ScoreRow ScoredSet::Add(const ScoredObject& scored, const ScoredObject* original
   pair_.reset();
   if (values_.empty()) {
     first_ = scored.name + ": " + scored.status;
-    if (std::isfinite(value)) interval_ = IntervalText(scored.score);
+    if (!scored.score.grasps.empty()) interval_ = IntervalText(scored.score);
     if (std::isfinite(value + baseline) && original != nullptr) {
       pair_ = DifferenceOf(scored.score, original->score, metric_.percentile);
     }
   }
   values_.push_back(value);
+  if (scored.score.status == GraspabilityStatus::kNoGrasps) {
+    no_grasps_.push_back(scored.name);
+  } else if (std::isfinite(value)) {
+    with_grasps_.push_back(value);
+  }
   if (original != nullptr) originals_.push_back(baseline);
   if (!scored.note.empty()) AddNote(scored.name + ": " + scored.note);
   candidates_.Add(scored.score);
   sizes_.Add(scored.name, scored.extent, &scored.score);
-  return RowOf(scored, egad_, original != nullptr ? &baseline : nullptr);
+  ScoreRow row = RowOf(scored, egad_, original != nullptr ? &baseline : nullptr);
+  for (const KnownSet* set : known_) {
+    const double percent = std::round(1e4 * (1.0 - ShareBelow(value, *set))) / 100.0;
+    const bool has_grasps = !scored.score.grasps.empty();
+    row.extras.emplace_back(PercentileColumn(*set), has_grasps ? percent : std::nan(""));
+  }
+  return row;
 }
 
 void ScoredSet::RequireAScore(const std::string& where) const {
@@ -45,8 +66,14 @@ std::vector<std::string> ScoredSet::Summary(bool effort_given) const {
   std::vector<std::string> lines = {MeanScoreText(values_, metric_), candidates_.Text()};
   if (!interval_.empty()) lines.push_back(interval_);
   if (!effort_given) lines.push_back(EffortText(std::ssize(values_), metric_));
-  const MeanInterval mean = MeanWithInterval(values_);
-  lines.push_back(KnownText(mean.mean, mean.count > 1, metric_));
+  if (!no_grasps_.empty()) {
+    lines.push_back("no grasp, graspability 0 (status no_grasps): " + FirstNames(no_grasps_));
+  }
+  if (with_grasps_.empty()) return lines;
+  const MeanInterval mean = MeanWithInterval(with_grasps_);
+  std::string known = KnownText(mean.mean, mean.count > 1, metric_);
+  if (!no_grasps_.empty() && !known_.empty()) known += "; of those with a grasp";
+  lines.push_back(known);
   return lines;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "antigrasp/quality/grasp_table.h"
+#include "antigrasp/quality/known_scores.h"
 #include "antigrasp/quality/object_size.h"
 #include "antigrasp/quality/score_text.h"
 #include "antigrasp/quality/scored_object.h"
@@ -17,9 +18,10 @@ class ScoredSet {
  public:
   // `egad`: with EGAD's score in every row.
   explicit ScoredSet(const MetricOptions& metric, bool egad = false)
-      : metric_(metric), egad_(egad), sizes_(metric) {}
+      : metric_(metric), egad_(egad), known_(KnownSetsAt(metric)), sizes_(metric) {}
   // In the order of the set; its row of scores.csv comes back. With the original of every object,
-  // before a change, or of none.
+  // before a change, or of none. Behind the other columns of the row stands of how many percent of
+  // each known set the object is harder to grasp; a gap without a grasp.
   ScoreRow Add(const ScoredObject& scored, const ScoredObject* original = nullptr);
   // A sentence of which somebody is to be warned, in the order added.
   void AddNote(std::string note) { notes_.push_back(std::move(note)); }
@@ -28,15 +30,19 @@ class ScoredSet {
   void RequireAScore(const std::string& where) const;
   std::vector<std::string> Warnings() const;  // notes and what UnlikelySizes finds
   // How many, their mean and what became of the candidates; of an only one the interval; how many
-  // grasps it took, unless `effort_given`; known sets beside it.
+  // grasps it took, unless `effort_given`; which objects offer no grasp; the others beside known
+  // sets.
   std::vector<std::string> Summary(bool effort_given) const;
   std::string PairedDifference() const;  // with originals
 
  private:
   MetricOptions metric_;
   bool egad_;
+  std::vector<const KnownSet*> known_;
   std::string first_;                       // the first one and its status
   std::vector<double> values_, originals_;  // graspabilities, NaN where there is none
+  std::vector<double> with_grasps_;         // those of values_ that are not 0 for want of a grasp
+  std::vector<std::string> no_grasps_;
   std::vector<std::string> notes_;
   CandidateCount candidates_;
   UnlikelySizes sizes_;

@@ -213,7 +213,10 @@ TEST(Cli, EvaluateWritesARowPerObjectAndNamesTheBadOnes) {
   const std::string csv = ReadFile(folder / "s.csv");
   EXPECT_TRUE(
       csv.starts_with("object,status,num_grasps,graspability,ci_low,ci_high,mean,"
-                      "fraction_nonzero,seconds,metres_per_unit,extent_x,extent_y,extent_z\n"));
+                      "fraction_nonzero,seconds,metres_per_unit,extent_x,extent_y,extent_z,"
+                      "harder_than_cylinders_pct,harder_than_cylinders_adversarial_pct,"
+                      "harder_than_prisms_pct,harder_than_prisms_adversarial_pct,"
+                      "harder_than_bottles_pct,harder_than_bottles_adversarial_pct\n"));
   EXPECT_NE(csv.find("ball.stl,ok,1000,"), std::string::npos) << csv;
   EXPECT_NE(csv.find("inside_out.obj,ok,1000,"), std::string::npos) << csv;
   EXPECT_NE(csv.find("noise.off,not readable,0,,"), std::string::npos) << csv;

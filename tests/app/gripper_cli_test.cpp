@@ -127,7 +127,7 @@ TEST(GripperCli, RefusesInOneLine) {
   const std::string narrow =
       folder.Write("narrow.toml", std::string(text).replace(text.find("0.2044"), 6, "0.0900"))
           .string();
-  ExpectRefused("gripper " + narrow, "narrow.toml): expected at least 0.1104 m");
+  ExpectRefused("gripper " + narrow, "narrow.toml): expected a palm of at least 0.1104 m");
 }
 
 TEST(GripperCli, TheShippedExampleIsAGripper) {

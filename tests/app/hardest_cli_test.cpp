@@ -104,6 +104,65 @@ TEST(HardestCli, ExportWritesThemWithBothScores) {
   EXPECT_NE(outcome.text.find("the 2 hardest of 4: "), std::string::npos) << outcome.text;
 }
 
+TEST(HardestCli, AnObjectWithoutAGraspIsNoWinnerAndIsNamed) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  fs::create_directory(folder / "in");
+  WriteMesh(folder / "in/bar.stl", shapes::Box({30.0, 35.0, 90.0}));
+  WriteMesh(folder / "in/ball.stl", shapes::Sphere(15.0, 3));
+  WriteMesh(folder / "in/wide.stl", shapes::Box({90.0, 95.0, 99.0}));
+  WriteMesh(folder / "in/sheet.stl", shapes::FlatSquare());
+  const std::string hardest = "in --hardest 2 --true-size --units mm" + std::string(kNoisy);
+  for (const std::string command : {"evaluate ", "export "}) {
+    const std::string out = command == "export " ? "e" : "s.csv";
+    const Outcome outcome = Antigrasp(command + dir + hardest + "--out " + dir + out);
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    const Table rows = CsvRows(folder / (command == "export " ? "e/hardest.csv" : "s.csv"));
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0].at("object"), "bar.stl") << command;
+    EXPECT_EQ(rows[1].at("object"), "ball.stl") << command;
+    for (const char* text :
+         {"not among them, as they offer no grasp: 1: wide.stl\n",
+          "not among them, as they have no score: 1\n", "3 objects scored, 1 not",
+          "wide.stl: no grasp, everything is wider than the opening of 50 mm",
+          "not scored: sheet.stl: "}) {
+      EXPECT_NE(outcome.text.find(text), std::string::npos) << text << outcome.text;
+    }
+  }
+  EXPECT_FALSE(fs::exists(folder / "e/wide.stl"));
+  const Outcome none = Antigrasp("export " + dir + "in/wide.stl --hardest 1 --true-size " +
+                                 "--units mm --out " + dir + "none");
+  EXPECT_EQ(none.code, 2) << none.text;
+  EXPECT_NE(none.text.find("no object has a grasp; 1: wide.stl"), std::string::npos) << none.text;
+  EXPECT_FALSE(fs::exists(folder / "none"));
+}
+
+TEST(HardestCli, WinnersOfALargeSetAreScoredAgainAsFewObjectsAre) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  fs::create_directory(folder / "in");
+  for (int i = 0; i < 101; ++i) {
+    WriteMesh(folder / "in" / (std::to_string(i) + ".stl"),
+              shapes::Box({1.0, 1.2, 1.0 + 0.01 * i}));
+  }
+  const std::string evaluate = "evaluate " + dir + "in --num-draws 2 --hardest 2 --out " + dir;
+  const Outcome outcome = Antigrasp(evaluate + "s.csv");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find(" under fresh draws of 1000 grasps\n"), std::string::npos)
+      << outcome.text;
+  EXPECT_NE(outcome.text.find("100 grasps an object, as there are more than 100 objects\n"),
+            std::string::npos)
+      << outcome.text;
+  for (const auto& row : CsvRows(folder / "s.csv")) {
+    EXPECT_EQ(row.at("num_grasps"), "100");
+    // Ten times the grasps, a third of the interval.
+    EXPECT_LT(std::stod(row.at("fresh_ci_high")) - std::stod(row.at("fresh_ci_low")),
+              0.7 * (std::stod(row.at("ci_high")) - std::stod(row.at("ci_low"))));
+  }
+  const Outcome told = Antigrasp(evaluate + "t.csv --num-grasps 20");
+  EXPECT_NE(told.text.find(" under fresh draws\n"), std::string::npos) << told.text;
+}
+
 TEST(HardestCli, RefusesWhatItCannotDoAndWritesNothing) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/";

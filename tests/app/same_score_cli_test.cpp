@@ -133,6 +133,11 @@ TEST(SameScoreCli, AFewObjectsTakeAThousandGraspsUnlessToldOtherwise) {
   EXPECT_EQ(grasps(" --num-grasps 50"), "50");
   EXPECT_EQ(grasps(" --preset default"), "100");
   EXPECT_EQ(grasps(" --max-attempts 4000"), "100");
+  for (const char* command : {"evaluate", "export"}) {
+    const std::string help = Antigrasp(std::string("help ") + command).text;
+    EXPECT_NE(help.find("gets 1000 grasps"), std::string::npos) << help;
+    EXPECT_NE(help.find("at most 100 objects"), std::string::npos) << help;
+  }
 }
 
 TEST(SameScoreCli, AScoreStandsBesideKnownOnesAtTheirConstantsAlone) {
@@ -145,7 +150,10 @@ TEST(SameScoreCli, AScoreStandsBesideKnownOnesAtTheirConstantsAlone) {
   EXPECT_NE(known.text.find("\nharder to grasp than 0 % of cylinders, "), std::string::npos)
       << known.text;
   EXPECT_NE(known.text.find(", 0 % of bottles-adversarial\n"), std::string::npos) << known.text;
+  const std::string column = "harder_than_bottles_adversarial_pct";
+  EXPECT_EQ(std::stod(CsvRows(folder / "s.csv").front().at(column)), 0.0);
   const Outcome other = Antigrasp(evaluate + " --friction 0.4");
+  EXPECT_FALSE(CsvRows(folder / "s.csv").front().contains(column));
   EXPECT_NE(other.text.find("\nno known objects at these constants"), std::string::npos)
       << other.text;
   const Outcome none = Antigrasp(evaluate + " --torsion none");
