@@ -161,20 +161,13 @@ void AddExportCommand(CLI::App* app) {
       ->capture_default_str()
       ->needs(hardest);
   AddThreads(command, &flags->threads);
-  PrintOptions defaults;
-  OptionTable table;
-  Bind(&table, &defaults);
   command->footer(EffortRule());
-  const OptionFlags print_flags(command, table, "Print check");
+  const OptionFlags print_flags = AddOptions<PrintOptions>(command, "Print check");
   command->callback([flags, print_flags, metric_flags] {
     if (flags->hardest == 0 && metric_flags->given()) {
       throw InputError("constants of the metric", "command line", "--hardest N beside them");
     }
-    PrintOptions options;
-    OptionTable own;
-    Bind(&own, &options);
-    print_flags.Apply(&own);
-    Export(*flags, options, *metric_flags);
+    Export(*flags, GivenOptions<PrintOptions>(print_flags), *metric_flags);
   });
 }
 

@@ -55,14 +55,6 @@ std::shared_ptr<CommonFlags> AddCommonFlags(CLI::App* command) {
 
 void Done(const CommonFlags& flags) { std::printf("%s\n", flags.out.c_str()); }
 
-std::string GraspCaption(int shown, const MetricOptions& metric) {
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "%d most robust of %d sampled grasps, friction cone of %.1f degrees", shown,
-                metric.num_grasps, std::atan(metric.friction) * 180.0 / std::numbers::pi);
-  return text;
-}
-
 void AddFigure1(CLI::App* figure) {
   struct Flags {
     std::vector<std::string> inputs, labels;

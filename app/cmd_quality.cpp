@@ -16,13 +16,6 @@ struct QualityFlags {
   int threads = 0;
 };
 
-OptionFlags ContactOptionFlags(CLI::App* command) {
-  ContactTableOptions defaults;
-  OptionTable table;
-  Bind(&table, &defaults);
-  return {command, table, "Contacts"};
-}
-
 void Quality(const QualityFlags& flags, const OptionFlags& contact_flags) {
   ContactTableOptions options;
   OptionTable table;
@@ -68,7 +61,8 @@ void AddQualityCommand(CLI::App* app) {
                       "scores (CSV); the constants go to the same name plus .quality.toml. "
                       "Without it the scores go to standard output");
   AddThreads(command, &flags->threads, "; scores do not depend on it");
-  const auto contact_flags = std::make_shared<OptionFlags>(ContactOptionFlags(command));
+  const auto contact_flags =
+      std::make_shared<OptionFlags>(AddOptions<ContactTableOptions>(command, "Contacts"));
   command->footer(kQualityColumns);
   command->callback([flags, contact_flags] { Quality(*flags, *contact_flags); });
 }

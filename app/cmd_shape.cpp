@@ -21,13 +21,6 @@ struct ShapeFlags {
   int threads = 0;
 };
 
-OptionFlags SearchFlags(CLI::App* command) {
-  PolyhedronOptions defaults;
-  OptionTable table;
-  Bind(&table, &defaults);
-  return {command, table, "Search"};
-}
-
 void Shape(ShapeFlags flags, const OptionFlags& search) {
   OptionTable table;
   Bind(&table, &flags.options);
@@ -89,7 +82,8 @@ void AddShapeCommand(CLI::App* app) {
       ->required();
   command->add_option("--seed", flags->options.seed, "random seed")->capture_default_str();
   AddThreads(command, &flags->threads, "; the solid is the same");
-  const auto search = std::make_shared<OptionFlags>(SearchFlags(command));
+  const auto search =
+      std::make_shared<OptionFlags>(AddOptions<PolyhedronOptions>(command, "Search"));
   command->footer(kAboutShapes);
   command->callback([flags, search] { Shape(*flags, *search); });
 }

@@ -27,13 +27,6 @@ std::vector<std::string> GripperAlternatives() {
   return names;
 }
 
-OptionFlags MetricOptionFlags(CLI::App* command) {
-  MetricOptions defaults;
-  OptionTable table;
-  Bind(&table, &defaults);
-  return {command, table, "Metric"};
-}
-
 }  // namespace
 
 std::string FlagOf(const std::string& key) {
@@ -116,7 +109,7 @@ MetricFlags::MetricFlags(CLI::App* command)
                       "all constants: " + Alternatives(MetricPresetNames()))),
       noise_(AddName(command, "--noise", "", "noise alone: " + Alternatives(NoisePresetNames()))),
       gripper_(AddGripperFlag(command, "Metric")),
-      options_(MetricOptionFlags(command)) {
+      options_(AddOptions<MetricOptions>(command, "Metric")) {
   command
       ->add_flag("--true-size", *true_size_,
                  "score objects at the size they have, their coordinates in --units, instead of "

@@ -27,6 +27,23 @@ class OptionFlags {
   std::shared_ptr<Given> given_ = std::make_shared<Given>();
 };
 
+// The flags of an options struct that has a Bind, and after parsing the options that were given.
+template <typename Options>
+OptionFlags AddOptions(CLI::App* command, const std::string& group) {
+  Options defaults;
+  OptionTable table;
+  Bind(&table, &defaults);
+  return {command, table, group};
+}
+template <typename Options>
+Options GivenOptions(const OptionFlags& flags) {
+  Options options;
+  OptionTable table;
+  Bind(&table, &options);
+  flags.Apply(&table);
+  return options;
+}
+
 // The metric's constants as flags of a command: one per "metric.*" and "gripper.*" option,
 // --preset NAME, --noise PRESET, --gripper NAME|FILE and --true-size. Single constants win over
 // --noise and --gripper, those over --preset.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numbers>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
@@ -67,6 +68,14 @@ std::vector<GraspedObject> GraspedObjects(const std::vector<std::string>& inputs
                        std::move(objects[i].mesh), std::move(scores[i])});
   }
   return grasped;
+}
+
+std::string GraspCaption(int shown, const MetricOptions& metric) {
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%d most robust of %d sampled grasps, friction cone of %.1f degrees", shown,
+                metric.num_grasps, std::atan(metric.friction) * 180.0 / std::numbers::pi);
+  return text;
 }
 
 std::vector<PairHistory> ReadHistories(const fs::path& path) {

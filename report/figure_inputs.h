@@ -22,6 +22,8 @@ std::vector<GraspedObject> GraspedObjects(const std::vector<std::string>& inputs
                                           const std::vector<std::string>& labels,
                                           const MetricOptions& metric, std::uint64_t seed,
                                           int threads, RunObserver* observer);
+// "25 most robust of 100 sampled grasps, friction cone of 26.6 degrees", of figure 1.
+std::string GraspCaption(int shown, const MetricOptions& metric);
 // perturb's history.csv, one history an object, in the file's order.
 std::vector<PairHistory> ReadHistories(const std::filesystem::path& path);
 
