@@ -122,6 +122,9 @@ TEST(Cli, RefusesBadInputInOneLineAndWritesNothing) {
   ExpectRefused("train " + kSmoke, "--out");
   ExpectRefused("sample " + dir + "not.h5 --out " + dir + "s.h5", "not a checkpoint");
   ExpectRefused("sample " + dir + "none.pt --out " + dir + "s.h5", "no such networks");
+  for (const char* command : {"sample cylinders-prior", "dataset make prisms"}) {
+    ExpectRefused(std::string(command) + " --count 1 --out " + dir + "x.obj", "name of a mesh");
+  }
   ExpectRefused("remesh " + dir + "not.h5 --out " + dir + "m", "not.h5");
   ExpectRefused("evaluate " + dir + "not.h5", "not.h5");
   ExpectRefused("evaluate " + dir + "missing.stl", "missing.stl");
