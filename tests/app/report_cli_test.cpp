@@ -342,9 +342,9 @@ TEST(ReportCli, ShowsTrialsBesideTheObjectsOfTheirNames) {
   const std::string dir = folder.path().string() + "/";
   WriteMesh(folder / "ball.stl", shapes::Sphere(1.0, 2));
   folder.Write("trials/trials.csv",
-               "object,protocol,held,held_low,held_high\nball,paper,0.75,0.5,0.875\n");
+               "object,protocol,held,held_low,held_high\nball.stl,paper,0.75,0.5,0.875\n");
   folder.Write("trials/executions.csv",
-               "object,protocol,grasp,robust_quality,outcome\nball,paper,3,0.002,slipped\n");
+               "object,protocol,grasp,robust_quality,outcome\nball.stl,paper,3,0.002,slipped\n");
   const json data =
       ReportOf(dir + "ball.stl" + kQuick + "--trials " + dir + "trials", folder / "r.html");
   const json& trials = data["objects"][0]["trials"];
