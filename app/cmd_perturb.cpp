@@ -70,7 +70,7 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
 // needs many of them. `run` is the algorithm.
 template <typename Options, typename Run>
 void AddMethod(CLI::App* perturb, const std::string& name, const std::string& help,
-               SubdivideOptions subdivide, const Run& run) {
+               SubdivideOptions subdivide, Run run) {
   CLI::App* command = perturb->add_subcommand(name, help);
   const auto flags = std::make_shared<PerturbFlags>();
   command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
@@ -102,8 +102,15 @@ void AddMethod(CLI::App* perturb, const std::string& name, const std::string& he
     RequireSubdivision(settings.subdivide, "--subdivide");
     settings.metric = metric_flags->Resolve();
     settings.seed = flags->seed;
-    settings.method = [own, metric = settings.metric, run](const auto&... arguments) {
-      return run(own, metric, arguments...);
+    settings.method = [own, metric = settings.metric, run](
+                          const TriangleMesh& mesh, const PairLimits& pairs,
+                          const PerturbOptions& common, RngStream* rng,
+                          const ProgressFn& progress) {
+      if constexpr (std::is_same_v<Options, SearchOptions>) {
+        return run(mesh, metric, own, rng, progress);
+      } else {
+        return run(mesh, pairs, common, own, rng, progress);
+      }
     };
     Bind(&table, &settings.metric);
     Perturb(*flags, settings, "seed = " + std::to_string(flags->seed) + "\n\n" + table.Dump(),
@@ -118,36 +125,18 @@ void AddPerturbCommand(CLI::App* app) {
       "perturb", "Make objects harder to grasp by moving their vertices (paper, section IV)");
   perturb->require_subcommand(1);
   perturb->footer("antigrasp perturb METHOD --help shows a method's options");
-  AddMethod<ExhaustiveOptions>(
-      perturb, "exhaustive", "IV-A: every vertex of every antipodal face; small meshes",
-      SubdivideOptions{kAsItIs},
-      [](const ExhaustiveOptions& own, const MetricOptions&, const TriangleMesh& mesh,
-         const PairLimits& pairs, const PerturbOptions& common, RngStream* rng,
-         const ProgressFn& progress) {
-        return PerturbExhaustively(mesh, pairs, common, own, rng, progress);
-      });
+  AddMethod<ExhaustiveOptions>(perturb, "exhaustive",
+                               "IV-A: every vertex of every antipodal face; small meshes",
+                               SubdivideOptions{kAsItIs}, PerturbExhaustively);
   AddMethod<RandomPerturbOptions>(
       perturb, "random", "IV-B: random vertices of sampled pairs, normals kept within alpha",
-      SubdivideOptions{0.0},
-      [](const RandomPerturbOptions& own, const MetricOptions&, const TriangleMesh& mesh,
-         const PairLimits& pairs, const PerturbOptions& common, RngStream* rng,
-         const ProgressFn& progress) {
-        return PerturbRandomly(mesh, pairs, common, own, rng, progress);
-      });
-  AddMethod<RotationOptions>(
-      perturb, "rotation", "IV-C: decimate, then turn the faces of sampled pairs apart",
-      SubdivideOptions{kAsItIs},
-      [](const RotationOptions& own, const MetricOptions&, const TriangleMesh& mesh,
-         const PairLimits& pairs, const PerturbOptions& common, RngStream* rng,
-         const ProgressFn& progress) {
-        return PerturbByRotation(mesh, pairs, common, own, rng, progress);
-      });
-  AddMethod<SearchOptions>(
-      perturb, "search", "beyond the paper: descent on the metric, normals kept within alpha",
-      SubdivideOptions{0.0},
-      [](const SearchOptions& own, const MetricOptions& metric, const TriangleMesh& mesh,
-         const PairLimits&, const PerturbOptions&, RngStream* rng,
-         const ProgressFn& progress) { return PerturbBySearch(mesh, metric, own, rng, progress); });
+      SubdivideOptions{0.0}, PerturbRandomly);
+  AddMethod<RotationOptions>(perturb, "rotation",
+                             "IV-C: decimate, then turn the faces of sampled pairs apart",
+                             SubdivideOptions{kAsItIs}, PerturbByRotation);
+  AddMethod<SearchOptions>(perturb, "search",
+                           "beyond the paper: descent on the metric, normals kept within alpha",
+                           SubdivideOptions{0.0}, PerturbBySearch);
 }
 
 }  // namespace antigrasp
