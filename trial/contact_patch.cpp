@@ -34,6 +34,7 @@ double Turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
 // Counter-clockwise from the first of the sorted points (Andrew's monotone chain).
 Patch Hull(const Patch& sorted) {
   Patch hull;
+  if (sorted.empty()) return hull;
   const auto add = [&](const PatchPoint& point, std::size_t keep) {
     while (hull.size() > keep &&
            Turn(hull[hull.size() - 2].place, hull.back().place, point.place) <= 0.0) {

@@ -34,6 +34,27 @@ std::string Line(const TrialReading& reading, const TrialResult& result) {
 
 }  // namespace
 
+std::vector<TrialReading> RunReadings(const std::vector<InputObject>& objects,
+                                      std::optional<FrictionReading> chosen, double angle_degrees,
+                                      MetricOptions metric, const TrialOptions& options,
+                                      std::uint64_t seed, int threads, RunObserver* observer) {
+  std::vector<TriangleMesh> meshes;
+  std::vector<std::uint64_t> streams;
+  for (const InputObject& object : objects) {
+    meshes.push_back(object.mesh);
+    streams.push_back(object.stream);
+  }
+  std::vector<TrialReading> all;
+  for (const auto [reading, name] : ChoicesOf(FrictionReading{})) {
+    if (chosen && chosen != reading) continue;
+    metric.friction = FrictionCoefficient(angle_degrees, reading);
+    all.push_back({reading, metric.friction,
+                   RunTrials(meshes, metric, options, seed, threads,
+                             observer->Phase("trials, " + std::string(name)), streams)});
+  }
+  return all;
+}
+
 std::string TrialCsv(const std::vector<std::string>& objects,
                      const std::vector<TrialReading>& readings) {
   CsvWriter csv({"object", "reading", "friction", "poses", "grasps", "found", "holds_planned",

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "antigrasp/core/observer.h"
+#include "antigrasp/datasets/objects.h"
 #include "antigrasp/trial/model_trial.h"
 
 namespace antigrasp {
@@ -13,6 +17,12 @@ struct TrialReading {
   double friction;
   std::vector<TrialResult> results;  // one an object
 };
+
+// Of one reading, or of all.
+std::vector<TrialReading> RunReadings(const std::vector<InputObject>& objects,
+                                      std::optional<FrictionReading> chosen, double angle_degrees,
+                                      MetricOptions metric, const TrialOptions& options,
+                                      std::uint64_t seed, int threads, RunObserver* observer);
 
 // The table of `trial` (docs/trials.md): a row for every object and reading.
 std::string TrialCsv(const std::vector<std::string>& objects,

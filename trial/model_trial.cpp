@@ -7,19 +7,14 @@
 #include <numbers>
 #include <numeric>
 
-#include "antigrasp/core/rng.h"
-#include "antigrasp/mesh/place.h"
-#include "antigrasp/mesh/ray_scene.h"
 #include "antigrasp/quality/epsilon.h"
 #include "antigrasp/quality/force_closure.h"
-#include "antigrasp/quality/graspability.h"
 #include "antigrasp/quality/jaw_closing.h"
 #include "antigrasp/quality/robust_quality.h"
+#include "antigrasp/trial/trial_table.h"
 
 namespace antigrasp {
 namespace {
-
-using Eigen::Vector3d;
 
 // What one series came to.
 struct Series {
@@ -33,113 +28,46 @@ struct Hold {
   bool epsilon = false;  // force closure and epsilon above the limit
 };
 
-// An object that stands on a table in front of the gripper.
-class Bench {
- public:
-  Bench(const TriangleMesh& mesh, double scale, const MetricOptions& metric,
-        const TrialOptions& options)
-      : mesh_(Transformed(Transformed(mesh, 1.0, Vector3d::Zero() - RoundPlace(mesh)), scale,
-                          Vector3d::Zero())),
-        scene_(mesh_),
-        com_(CenterOfMass(mesh_)),
-        poses_(StablePoses(mesh_, com_)),
-        reach_(mesh_, scene_, metric, options.table),
-        metric_(metric),
-        options_(options) {}
-
-  int poses() const { return static_cast<int>(poses_.size()); }
-
-  Series Run(std::uint64_t seed, std::uint64_t object, std::uint64_t number) const {
-    const std::uint64_t plan_seed = RngStream(seed, "trial-plan", object, number).NextU64();
-    RngStream rng(seed, "trial", object, number);
-    std::vector<ScoredGrasp> left = Plan(plan_seed, object);
-    Series series;
-    for (int i = 0; i < options_.grasps_per_series; ++i) {
-      const StablePose& pose = DrawPose(&rng);
-      const auto best = std::find_if(left.begin(), left.end(), [&](const ScoredGrasp& scored) {
-        return reach_.Approach(scored.grasp, pose).has_value();
-      });
-      if (best == left.end()) continue;
-      Execute(best->grasp, &rng, &series);
-      series.confidence += best->quality;
-      left.erase(best);
-    }
-    return series;
-  }
-
- private:
-  // Grasps by falling robust quality.
-  std::vector<ScoredGrasp> Plan(std::uint64_t seed, std::uint64_t object) const {
-    MetricOptions in_metres = metric_;
-    in_metres.object_min_extent = 0.0;
-    in_metres.units = LengthUnit::kM;
-    std::vector<ScoredGrasp> grasps = EvaluateGraspability(mesh_, in_metres, seed, object).grasps;
-    std::stable_sort(grasps.begin(), grasps.end(), [](const ScoredGrasp& a, const ScoredGrasp& b) {
-      return a.quality > b.quality;
-    });
-    return grasps;
-  }
-
-  const StablePose& DrawPose(RngStream* rng) const {
-    double rest = rng->Uniform();
-    for (const StablePose& pose : poses_) {
-      rest -= pose.probability;
-      if (rest < 0.0) return pose;
-    }
-    return poses_.back();  // rounding
-  }
-
-  void Execute(const Grasp& grasp, RngStream* rng, Series* series) const {
-    ++series->found;
-    NoiseDraw as_planned;
-    as_planned.friction = metric_.friction;
-    series->holds_planned += Holds(grasp, as_planned).epsilon ? 1 : 0;
-    for (int i = 0; i < options_.executions; ++i) {
-      const Hold hold = Holds(grasp, DrawNoise(metric_, rng));
-      series->force_closure += hold.force_closure ? 1 : 0;
-      series->held += hold.epsilon ? 1 : 0;
-    }
-  }
-
-  Hold Holds(const Grasp& grasp, const NoiseDraw& noise) const {
-    const JawPose pose = ExecutedPose(grasp, com_, noise);
-    const auto contacts =
-        CloseJaws(scene_, pose.center, pose.axis, metric_.jaw_opening, noise.friction);
-    if (!contacts || !ForceClosure(*contacts, noise.friction, NormalSense::kOutward)) return {};
-    const double epsilon = Epsilon(*contacts, com_, WrenchModelOf(metric_, noise.friction));
-    return {true, epsilon > options_.min_epsilon};
-  }
-
-  TriangleMesh mesh_;
-  RayScene scene_;
-  Vector3d com_;
-  std::vector<StablePose> poses_;
-  TableReach reach_;
-  MetricOptions metric_;
-  TrialOptions options_;
-};
-
-// nullptr for an object that cannot be tried.
-std::unique_ptr<const Bench> MakeBench(const TriangleMesh& mesh, const MetricOptions& metric,
-                                       const TrialOptions& options) {
-  MetricOptions one_candidate = metric;
-  one_candidate.max_attempts = 1;
-  const Graspability look = EvaluateGraspability(mesh, one_candidate, 0, 0);
-  if (look.status == GraspabilityStatus::kNotEvaluable) return nullptr;
-  auto bench = std::make_unique<const Bench>(mesh, look.scale, metric, options);
-  return bench->poses() > 0 ? std::move(bench) : nullptr;
+Hold Holds(const TrialTable& table, const MetricOptions& metric, double min_epsilon,
+           const Grasp& grasp, const NoiseDraw& noise) {
+  const JawPose pose = ExecutedPose(grasp, table.com(), noise);
+  const auto contacts =
+      CloseJaws(table.scene(), pose.center, pose.axis, metric.jaw_opening, noise.friction);
+  if (!contacts || !ForceClosure(*contacts, noise.friction, NormalSense::kOutward)) return {};
+  return {true,
+          Epsilon(*contacts, table.com(), WrenchModelOf(metric, noise.friction)) > min_epsilon};
 }
 
-TrialResult SummarizeSeries(const Bench* bench, const Series* first, const TrialOptions& options) {
+Series RunSeries(const TrialTable& table, const MetricOptions& metric, const TrialOptions& options,
+                 const TrialPlan& plan) {
+  Series series;
+  for (const TrialGrasp& planned : plan.grasps) {
+    ++series.found;
+    series.confidence += planned.quality;
+    NoiseDraw as_planned;
+    as_planned.friction = metric.friction;
+    series.holds_planned +=
+        Holds(table, metric, options.min_epsilon, planned.grasp, as_planned).epsilon ? 1 : 0;
+    for (const NoiseDraw& noise : planned.draws) {
+      const Hold hold = Holds(table, metric, options.min_epsilon, planned.grasp, noise);
+      series.force_closure += hold.force_closure ? 1 : 0;
+      series.held += hold.epsilon ? 1 : 0;
+    }
+  }
+  return series;
+}
+
+TrialResult SummarizeSeries(const TrialTable* table, const Series* first,
+                            const TrialOptions& options) {
   TrialResult result;
   result.grasps = options.series * options.grasps_per_series;
-  if (bench == nullptr) {
+  if (table == nullptr) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     result.confidence = kNan;
     result.force_closure = result.held = {kNan, {kNan, kNan}};
     return result;
   }
-  result.poses = bench->poses();
+  result.poses = static_cast<int>(table->poses().size());
   std::vector<int> force_closure, held;
   for (const Series* series = first; series != first + options.series; ++series) {
     result.found += series->found;
@@ -203,27 +131,28 @@ std::vector<TrialResult> RunTrials(const std::vector<TriangleMesh>& meshes,
                                    const MetricOptions& metric, const TrialOptions& options,
                                    std::uint64_t seed, int threads, const ProgressFn& progress,
                                    const std::vector<std::uint64_t>& streams) {
-  std::vector<std::unique_ptr<const Bench>> benches(meshes.size());
+  std::vector<std::unique_ptr<const TrialTable>> tables(meshes.size());
   ParallelFor(std::ssize(meshes), threads, [&](std::int64_t i) {
-    benches[static_cast<std::size_t>(i)] =
-        MakeBench(meshes[static_cast<std::size_t>(i)], metric, options);
+    tables[static_cast<std::size_t>(i)] =
+        MakeTrialTable(meshes[static_cast<std::size_t>(i)], metric, options.table);
   });
   std::vector<Series> series(meshes.size() * static_cast<std::size_t>(options.series));
   ParallelFor(
       std::ssize(series), threads,
       [&](std::int64_t i) {
         const auto object = static_cast<std::size_t>(i / options.series);
-        if (benches[object] == nullptr) return;
-        series[static_cast<std::size_t>(i)] =
-            benches[object]->Run(seed, streams.empty() ? object : streams[object],
-                                 static_cast<std::uint64_t>(i % options.series));
+        if (tables[object] == nullptr) return;
+        const TrialPlan plan =
+            tables[object]->BestUnused(seed, streams.empty() ? object : streams[object],
+                                       static_cast<std::uint64_t>(i % options.series),
+                                       options.grasps_per_series, options.executions);
+        series[static_cast<std::size_t>(i)] = RunSeries(*tables[object], metric, options, plan);
       },
       progress);
   std::vector<TrialResult> results;
   for (std::size_t object = 0; object < meshes.size(); ++object) {
-    results.push_back(SummarizeSeries(benches[object].get(),
-                                      &series[object * static_cast<std::size_t>(options.series)],
-                                      options));
+    results.push_back(SummarizeSeries(
+        tables[object].get(), &series[object * static_cast<std::size_t>(options.series)], options));
   }
   return results;
 }

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "antigrasp/core/csv_writer.h"
+#include "antigrasp/trial/trial_summary.h"
+
+namespace antigrasp {
+
+// What every row of both tables says of how it was tried.
+struct TrialRun {
+  std::string protocol;  // its name
+  std::string side;      // "after", or "before" of a baseline
+  std::string masses;    // "own" or "equal"
+  double friction = 0.0;
+};
+
+// trials.csv (docs/formats.md): a row an object, side and kind of mass.
+class TrialsTable {
+ public:
+  explicit TrialsTable(const Protocol& protocol);
+  void Add(const TrialRun& run, const TrialSummary& summary);
+  const std::string& text() const { return csv_.text(); }
+
+ private:
+  CsvWriter csv_;
+};
+
+// executions.csv: a row an execution.
+class ExecutionsTable {
+ public:
+  ExecutionsTable();
+  void Add(const TrialRun& run, const std::string& object, const PhysicsTrial& trial);
+  std::string TakeText() { return csv_.TakeText(); }  // what was added since, the header first
+
+ private:
+  CsvWriter csv_;
+};
+
+// means.csv: over the objects that could be tried, beside their originals where there are any; a
+// row for every stage of the protocol (all grasps) and group of grasps (its first stage). Percent.
+class MeansTable {
+ public:
+  MeansTable();
+  void Add(const TrialRun& run, const Protocol& protocol, const std::vector<TrialSummary>& after,
+           const std::vector<TrialSummary>& before);  // `before` may be empty
+  const std::string& text() const { return csv_.text(); }
+
+ private:
+  CsvWriter csv_;
+};
+
+// The same for the eye.
+std::string TrialLines(const std::vector<TrialSummary>& objects, const Protocol& protocol);
+// "held 71.2 +-3.4 % of 12 objects, 3 g 60 ..." and what became of the others.
+std::string TrialMeans(const std::vector<TrialSummary>& objects, const Protocol& protocol);
+// "-3.1 +-2.0 points of 76.2 (50 pairs, ...)" for every stage.
+std::string TrialDifference(const std::vector<TrialSummary>& after,
+                            const std::vector<TrialSummary>& before, const Protocol& protocol);
+
+}  // namespace antigrasp
