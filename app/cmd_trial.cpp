@@ -12,28 +12,26 @@
 #include "antigrasp/core/format.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/trial/model_table.h"
+#include "antigrasp/trial/object_trials.h"
 
 namespace antigrasp {
 namespace {
 
 constexpr const char* kBoth = "both";
 
-struct TrialFlags {
-  std::vector<std::string> inputs;
-  std::string out;
+enum class TrialEngine { kMujoco, kModel };
+constexpr auto ChoicesOf(TrialEngine) {
+  return std::to_array<Choice<TrialEngine>>(
+      {{TrialEngine::kMujoco, "mujoco"}, {TrialEngine::kModel, "model"}});
+}
+
+struct TrialFlags : PhysicsTrialRequest {
+  TrialEngine engine = TrialEngine::kMujoco;
+  ProtocolName protocol = ProtocolName::kSixWays;
   double friction_angle = 17.0;
   std::string reading = kBoth;  // or a FrictionReading
   bool millimetres = false;
-  std::uint64_t seed = 1;
-  int threads = 0;
 };
-
-OptionFlags TrialOptionFlags(CLI::App* command) {
-  TrialOptions defaults;
-  OptionTable table;
-  Bind(&table, &defaults);
-  return {command, table, "Trial"};
-}
 
 std::vector<InputObject> LoadUsable(const TrialFlags& flags) {
   ConsoleObserver console;
@@ -50,28 +48,6 @@ std::vector<InputObject> LoadUsable(const TrialFlags& flags) {
   return objects;
 }
 
-std::vector<TrialReading> RunReadings(const TrialFlags& flags,
-                                      const std::vector<InputObject>& objects, MetricOptions metric,
-                                      const TrialOptions& options) {
-  std::vector<TriangleMesh> meshes;
-  std::vector<std::uint64_t> streams;
-  for (const InputObject& object : objects) {
-    meshes.push_back(object.mesh);
-    streams.push_back(object.stream);
-  }
-  ConsoleObserver console;
-  std::vector<TrialReading> all;
-  const auto chosen = FindChoice<FrictionReading>(flags.reading);
-  for (const auto [reading, name] : ChoicesOf(FrictionReading{})) {
-    if (chosen && chosen != reading) continue;
-    metric.friction = FrictionCoefficient(flags.friction_angle, reading);
-    all.push_back({reading, metric.friction,
-                   RunTrials(meshes, metric, options, flags.seed, flags.threads,
-                             console.Phase("trials, " + std::string(name)), streams)});
-  }
-  return all;
-}
-
 std::string Constants(const TrialFlags& flags) {
   return "seed = " + std::to_string(flags.seed) +
          "\nfriction_angle = " + FormatDouble(flags.friction_angle) + "\nreading = \"" +
@@ -80,21 +56,17 @@ std::string Constants(const TrialFlags& flags) {
          "metric.percentile.\n\n";
 }
 
-void Trial(const TrialFlags& flags, const OptionFlags& trial_flags,
-           const MetricFlags& metric_flags) {
-  TrialOptions options;
+void TrialByModel(const TrialFlags& flags, const PhysicsTrialOptions& given, MetricOptions metric) {
+  TrialOptions options = given.series;
   OptionTable table;
   Bind(&table, &options);
-  trial_flags.Apply(&table);
-  MetricOptions metric = metric_flags.Resolve();
-  if (flags.millimetres) {
-    metric.object_min_extent = 0.0;
-    metric.units = LengthUnit::kMm;
-  }
   if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
   const std::vector<InputObject> objects = LoadUsable(flags);
   WarnOfSizes(objects, metric);
-  const std::vector<TrialReading> all = RunReadings(flags, objects, metric, options);
+  ConsoleObserver console;
+  const std::vector<TrialReading> all =
+      RunReadings(objects, FindChoice<FrictionReading>(flags.reading), flags.friction_angle, metric,
+                  options, flags.seed, flags.threads, &console);
   std::vector<std::string> names;
   for (const InputObject& object : objects) names.push_back(object.name);
   if (!flags.out.empty()) {
@@ -105,27 +77,99 @@ void Trial(const TrialFlags& flags, const OptionFlags& trial_flags,
   std::fputs(TrialText(names, all, options.min_epsilon).c_str(), stdout);
 }
 
+// The friction of a trial in physics: --friction, the angle in one or both readings, or the
+// protocol's or the metric's own.
+std::vector<double> Frictions(const TrialFlags& flags, const CLI::App& command,
+                              const MetricOptions& metric) {
+  if (command.count("--friction-angle") + command.count("--reading") == 0) {
+    return {metric.friction};
+  }
+  std::vector<double> frictions;
+  const auto chosen = FindChoice<FrictionReading>(flags.reading);
+  for (const auto [reading, name] : ChoicesOf(FrictionReading{})) {
+    if (!chosen || chosen == reading) {
+      frictions.push_back(FrictionCoefficient(flags.friction_angle, reading));
+    }
+  }
+  return frictions;
+}
+
+void Trial(TrialFlags flags, const CLI::App& command, const OptionFlags& trial_flags,
+           const MetricFlags& metric_flags) {
+  const Protocol protocol = ProtocolOf(flags.protocol);
+  PhysicsTrialOptions options;
+  MetricOptions metric = metric_flags.Resolve(), of_protocol = metric;
+  ApplyProtocol(protocol, &of_protocol, &options);
+  if (command.count("--friction") == 0) metric.friction = of_protocol.friction;
+  OptionTable table;
+  Bind(&table, &options);
+  trial_flags.Apply(&table);
+  if (flags.millimetres) {
+    metric.object_min_extent = 0.0;
+    metric.units = LengthUnit::kMm;
+  }
+  if (flags.engine == TrialEngine::kModel) {
+    for (const char* flag : {"--baseline", "--friction", "--protocol"}) {
+      if (command.count(flag) > 0) {
+        throw InputError("the model has no such thing", flag, "--engine mujoco");
+      }
+    }
+    return TrialByModel(flags, options, metric);
+  }
+  flags.frictions = Frictions(flags, command, metric);
+  ConsoleObserver console;
+  const PhysicsTrialReport report = TryInPhysics(flags, metric, options, &console);
+  for (const std::string& warning : report.warnings) spdlog::warn("{}", warning);
+  std::fputs(report.text.c_str(), stdout);
+}
+
 constexpr const char* kAboutTrial =
-    "A series plans anew: antipodal grasps with their robust quality. Then, five times, it draws "
-    "a\n"
-    "stable pose by its probability, takes the best grasp that the gripper reaches from above the\n"
-    "table and that was not yet executed, and executes it three times under fresh noise.\n"
-    "found: there was such a grasp. It holds when both jaws touch first from outside and the line\n"
-    "between the contacts lies in both friction cones (force closure), and when epsilon is also\n"
-    "above --min-epsilon. A grasp that was not found counts as not held. Reading half-angle takes\n"
-    "the friction angle as the cone's half angle, full-cone as the opening of the whole cone.\n"
-    "Intervals allow for executions of one series sharing a plan.\n";
+    "In physics (--engine mujoco) the object rests on a table in a stable pose drawn by its\n"
+    "probability; the gripper comes from above, closes by force, lifts and is loaded. Grasps are\n"
+    "planned at the trial's friction. Protocols, each from its source (docs/trials.md):\n"
+    "  six-ways      every planned grasp; weight in six directions, at 1, 3 and 8 g\n"
+    "  paper         five best grasps that were not executed yet, three times each; carried\n"
+    "  graspdatagen  no table; five tugs of 1 g; 1 kg, friction 1\n"
+    "  dexgraspbench no table; six runs, within 50 mm and 15 degrees; 0.1 kg, friction 0.6\n"
+    "Held, in percent of the executions; best: of the grasp of highest robust quality; top: of "
+    "the\n"
+    "best quarter; force closure: what the metric says of the same executions. With --baseline\n"
+    "both are tried at their own mass and at --equal-mass, with equal draws.\n\n"
+    "--engine model asks the metric's model instead (the paper's Table I): a series plans anew,\n"
+    "then, five times, draws a stable pose, takes the best grasp that the gripper reaches and "
+    "that\n"
+    "was not executed yet, and executes it three times. It holds when both jaws touch first from\n"
+    "outside and the line between the contacts lies in both friction cones (force closure), and\n"
+    "when epsilon is also above --min-epsilon. A grasp that was not found counts as not held.\n"
+    "Reading half-angle takes the friction angle as the cone's half angle, full-cone as the "
+    "opening\n"
+    "of the whole cone. Intervals allow for executions that share a plan.\n";
 
 }  // namespace
 
 void AddTrialCommand(CLI::App* app) {
   const auto flags = std::make_shared<TrialFlags>();
   CLI::App* command = app->add_subcommand(
-      "trial", "Predict how often a robot would lift objects (the paper's Table I)");
+      "trial", "Try in physics how often a gripper holds objects (the paper's Table I)");
   command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
-  command->add_option("--out", flags->out,
-                      "results (CSV); the constants go to the same name plus .trial.toml");
-  command->add_option("--friction-angle", flags->friction_angle, "degrees")
+  AddChoice(command, "--engine", &flags->engine, "mujoco: physics; model: the metric's contacts");
+  AddChoice(command, "--protocol", &flags->protocol, "how grasps are tried, below");
+  command->add_option("--baseline", flags->baseline,
+                      "the same objects before a change (paired by name): both are tried");
+  command->add_option(
+      "--out", flags->out,
+      "folder for trials.csv, means.csv, executions.csv and replays.json; with the model a "
+      "table (CSV), the constants go to the same name plus .trial.toml");
+  AddOverwrite(command, &flags->overwrite);
+  command->add_option("--equal-mass", flags->equal_mass, "kg, of both sides of a comparison")
+      ->check(NumberIn(1e-4, 1e3))
+      ->capture_default_str();
+  command->add_option("--replays", flags->replays, "of an object, held and lost ones each")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--friction-angle", flags->friction_angle,
+                   "degrees, in place of --friction; the model always takes it")
       ->check(NumberIn(0.0, 80.0))
       ->capture_default_str();
   std::vector<std::string> readings = ChoiceNames<FrictionReading>();
@@ -138,16 +182,16 @@ void AddTrialCommand(CLI::App* app) {
   command->add_option("--threads", flags->threads, "threads; 0 = all; results do not depend on it")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  const auto trial_flags = std::make_shared<OptionFlags>(TrialOptionFlags(command));
+  const auto trial_flags =
+      std::make_shared<OptionFlags>(AddOptions<PhysicsTrialOptions>(command, "Trial"));
   const auto metric_flags = std::make_shared<MetricFlags>(command);
-  // Set by the friction angle, or without meaning here.
-  for (const char* name : {"--friction", "--percentile"}) {
-    command->remove_option(command->get_option(name));
-  }
+  command->remove_option(command->get_option("--percentile"));  // without meaning here
+  command->get_option("--friction")->excludes("--friction-angle");
   for (const char* name : {"--units", "--object-min-extent"}) mm->excludes(name);
   command->footer(kAboutTrial);
-  command->callback(
-      [flags, trial_flags, metric_flags] { Trial(*flags, *trial_flags, *metric_flags); });
+  command->callback([flags, command, trial_flags, metric_flags] {
+    Trial(*flags, *command, *trial_flags, *metric_flags);
+  });
 }
 
 }  // namespace antigrasp

@@ -74,7 +74,8 @@ TEST(GripperCli, EveryCommandThatHasAMetricTakesIt) {
   Outcome outcome = Antigrasp("perturb random " + box + "--iterations 1 " + flags + "p");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_TRUE(Holds(ReadFile(folder / "p/perturb.toml"), "jaw_opening = 0.14 "));
-  outcome = Antigrasp("trial " + box + "--series 1 --executions 1 " + flags + "t.csv");
+  outcome =
+      Antigrasp("trial --engine model " + box + "--series 1 --executions 1 " + flags + "t.csv");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_TRUE(Holds(ReadFile(folder / "t.csv.trial.toml"), "jaw_opening = 0.14 "));
   for (const char* command : {"train", "report", "evaluate", "trial", "perturb search"}) {

@@ -132,7 +132,7 @@ TEST(NamesCli, NoFileOfAnObjectIsWrittenOver) {
   ExpectRefused("evaluate " + ball + " --out " + dir + "s.csv --grasps " + dir + "s.csv",
                 "two files would be written as one");
   ExpectRefused("poses " + ball + " --out " + ball, "over an object's file");
-  ExpectRefused("trial " + ball + " --out " + ball, "over an object's file");
+  ExpectRefused("trial --engine model " + ball + " --out " + ball, "over an object's file");
   ExpectRefused("dataset import " + ball + " --out " + ball, "over a mesh to import");
   ExpectRefused("dataset import " + ball + " --out " + dir + "x.h5 --report " + ball,
                 "over an object's file");

@@ -93,8 +93,9 @@ TEST(SameScoreCli, ATrialDoesNotDependOnNeighbours) {
   const std::string dir = folder.path().string() + "/";
   WriteObjects(folder);
   const auto held = [&](const std::string& objects) {
-    const Outcome outcome = Antigrasp("trial " + objects + kTwelve + "--reading half-angle " +
-                                      "--series 2 --out " + dir + "t.csv");
+    const Outcome outcome =
+        Antigrasp("trial --engine model " + objects + kTwelve + "--reading half-angle " +
+                  "--series 2 --out " + dir + "t.csv");
     EXPECT_EQ(outcome.code, 0) << outcome.text;
     return ByObject(folder / "t.csv", "confidence");
   };

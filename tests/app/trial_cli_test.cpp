@@ -23,10 +23,10 @@ constexpr double kZ2 = 1.959963984540054 * 1.959963984540054;  // of Wilson's in
 Numbers Trial(const std::string& arguments) {
   const shapes::TempFolder folder;
   WriteMesh(folder / "cube.stl", shapes::Box({30.0, 30.0, 30.0}));
-  const cli::Outcome outcome =
-      cli::Antigrasp("trial " + (folder / "cube.stl").string() + " --mm --noise none --series 3 " +
-                     "--grasps-per-series 4 --executions 2 --num-draws 1 --out " +
-                     (folder / "t.csv").string() + " " + arguments);
+  const cli::Outcome outcome = cli::Antigrasp(
+      "trial --engine model " + (folder / "cube.stl").string() + " --mm --noise none --series 3 " +
+      "--grasps-per-series 4 --executions 2 --num-draws 1 --out " + (folder / "t.csv").string() +
+      " " + arguments);
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   std::istringstream lines(ReadFile(folder / "t.csv"));
   std::string line, name, field;

@@ -109,9 +109,10 @@ TEST_F(UnitsCli, AnUnscoredObjectHasNoSize) {
 TEST_F(UnitsCli, SizesThatSpeakForAnotherUnitAreWarnedOf) {
   const std::string large = "mm.obj: largest extent 80 m: are the coordinates in mm? --units mm";
   const std::string out = "--out " + File("out");
-  for (const std::string command : {"evaluate ", "perturb random ", "trial ", "export "}) {
+  for (const std::string command :
+       {"evaluate ", "perturb random ", "trial --engine model ", "export "}) {
     const Outcome outcome = Antigrasp(command + File("mm.obj") + "--true-size " + out +
-                                      (command == "trial " ? " --series 1" : ""));
+                                      (command.starts_with("trial") ? " --series 1" : ""));
     EXPECT_EQ(outcome.code, 0) << outcome.text;
     EXPECT_TRUE(Says(outcome, large)) << command << outcome.text;
     std::filesystem::remove_all(folder / "out");
@@ -178,7 +179,8 @@ TEST_F(UnitsCli, PosesAndTrialsKnowTheUnit) {
                 std::abs(height - 0.04) < 1e-6)
         << height;
   }
-  const std::string trial = "trial " + File("mm.obj") + kFewGrasps + "--series 2 --out ";
+  const std::string trial =
+      "trial --engine model " + File("mm.obj") + kFewGrasps + "--series 2 --out ";
   ASSERT_EQ(Antigrasp(trial + File("short.csv") + "--mm").code, 0);
   ASSERT_EQ(Antigrasp(trial + File("long.csv") + "--units mm --true-size").code, 0);
   ASSERT_EQ(Antigrasp(trial + File("scaled.csv")).code, 0);

@@ -85,7 +85,7 @@ TEST(UsableCli, EveryCommandTakesTheSameObjectsAndGivesTheSameReasons) {
     imported[fs::path(row["path"]).filename().string()] = row["status"] + " " + row["detail"];
   }
   const Outcome trial =
-      Antigrasp("trial " + in +
+      Antigrasp("trial --engine model " + in +
                 " --noise none --series 1 --grasps-per-series 1 --executions 1 --num-draws 1");
   const Outcome poses = Antigrasp("poses " + in);
   const Outcome compared = Antigrasp("compare " + in + " " + in + " --count 2");
