@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
       {"contacts", CompareContacts},     {"epsilon", CompareEpsilon},
       {"evaluation", CompareEvaluation}, {"files", CompareFiles},
       {"perturb", ComparePerturb},       {"poses", ComparePoses},
-      {"similarity", CompareSimilarity}};
+      {"similarity", CompareSimilarity}, {"trials", CompareTrials}};
   const std::vector<std::string> named(argv + 1, argv + argc);
   std::size_t known = 0;
   for (const auto& [name, compare] : comparisons) {
@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   if (known == named.size()) return 0;
   std::fprintf(
       stderr,
-      "bench_compare [contacts] [epsilon] [evaluation] [files] [perturb] [poses] [similarity]\n");
+      "bench_compare [contacts] [epsilon] [evaluation] [files] [perturb] [poses] [similarity] "
+      "[trials]\n");
   return 2;
 }

@@ -9,5 +9,6 @@ void CompareFiles();
 void ComparePerturb();
 void ComparePoses();
 void CompareSimilarity();
+void CompareTrials();
 
 }  // namespace antigrasp::bench
