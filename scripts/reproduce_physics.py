@@ -42,10 +42,10 @@ def perturbed(out, objects, kind, label, flags):
     return folder
 
 
-def tried(folder, friction, tip):
+def tried(folder, friction, tip, grasps):
     out = folder / f"trial-{friction}-{tip}"
     once(out / "trials.csv", "trial", folder / "after", "--baseline", folder / "before", "--friction", friction, "--tip",
-         tip, "--equal-mass", EQUAL, "--replays", 1, "--out", out)
+         tip, "--equal-mass", EQUAL, "--num-grasps", grasps, "--replays", 1, "--out", out)
     return rows_of(out)
 
 
@@ -88,14 +88,15 @@ def text_of(info, word):
     return "-"
 
 
-def samples(out, objects, kind, which, friction):
+def samples(out, objects, grasps, kind, which, friction):
     """Samples of a network, tried at their own and at an equal mass."""
     grids = out / "networks" / f"{kind}-{which}.h5"
     once(grids, "sample", f"{kind}-{which}", "--count", objects, "--seed", 7, "--out", grids)
     rows = {}
     for masses, flags in (("own", ()), ("equal", ("--mass", EQUAL))):
         folder = out / "networks" / f"{kind}-{which}-{friction}-{masses}"
-        once(folder / "trials.csv", "trial", grids, "--friction", friction, "--replays", 1, "--out", folder, *flags)
+        once(folder / "trials.csv", "trial", grids, "--friction", friction, "--num-grasps", grasps, "--replays", 1, "--out",
+             folder, *flags)
         rows[masses] = rows_of(folder)
     return rows
 
@@ -109,7 +110,9 @@ def unpaired(before, after, masses, stage):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--objects", type=int, default=50)
+    parser.add_argument("--grasps", type=int, default=100)
     parser.add_argument("--only", choices=SETS)
+    parser.add_argument("--tips", nargs="*", choices=TIPS, default=TIPS)
     parser.add_argument("--out", type=pathlib.Path)
     parser.add_argument("--report", action="store_true", help="write what there is")
     arguments = parser.parse_args()
@@ -120,13 +123,13 @@ def main():
             for kind in sets:
                 perturbed(out, arguments.objects, kind, label, flags)
         # What matters most first: low friction, then the metric's own, then the other fingertip.
-        for tip in TIPS:
+        for tip in arguments.tips:
             for friction in reversed(FRICTIONS):
-                for kind in sets:
-                    for label, _ in reversed(METHODS):
-                        tried(out / kind / folder_name(label), friction, tip)
-    text = [f"`scripts/reproduce physics --objects {arguments.objects}` at {commit()}: {arguments.objects} objects a set (seed 77), 100 "
-            "grasps each, planned at the trial's friction on the object they are tried on, five executions a grasp. Percent held "
+                for label, _ in reversed(METHODS):
+                    for kind in sets:
+                        tried(out / kind / folder_name(label), friction, tip, arguments.grasps)
+    text = [f"`scripts/reproduce physics --objects {arguments.objects} --grasps {arguments.grasps}` at {commit()}: {arguments.objects} objects a set (seed 77), "
+            f"{arguments.grasps} grasps each, planned at the trial's friction on the object they are tried on, five executions a grasp. Percent held "
             "and its change in points, +-95 % over objects; lengths in percent of the diagonal. The judge is the trial "
             f"(`six-ways`); kappa is the metric's."]
     for tip in TIPS:
@@ -149,7 +152,7 @@ def network_table(out, arguments, sets):
             done = out / "networks" / f"{kind}-adversarial-{friction}-equal" / "means.csv"
             if arguments.report and not done.exists():
                 continue
-            before, after = (samples(out, arguments.objects, kind, which, friction) for which in ("prior", "adversarial"))
+            before, after = (samples(out, arguments.objects, arguments.grasps, kind, which, friction) for which in ("prior", "adversarial"))
             lines.append(f"| {kind} | {friction} | {unpaired(before, after, 'own', '1 g')} | {unpaired(before, after, 'equal', '1 g')} | "
                          f"{unpaired(before, after, 'equal', '8 g')} |")
     if not lines:
