@@ -1,7 +1,10 @@
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
@@ -94,6 +97,29 @@ std::vector<double> Frictions(const TrialFlags& flags, const CLI::App& command,
   return frictions;
 }
 
+// No flag is accepted and then not used.
+void RequireNoPhysics(const CLI::App& command, const OptionFlags& trial_flags) {
+  std::vector<std::string> typed;
+  for (const char* flag :
+       {"--baseline", "--friction", "--protocol", "--equal-mass", "--replays", "--overwrite"}) {
+    if (command.count(flag) > 0) typed.emplace_back(flag);
+  }
+  PhysicsTrialOptions physics;
+  TrialOptions model;
+  OptionTable all, of_model;
+  Bind(&all, &physics);
+  Bind(&of_model, &model);
+  for (const Option& option : all.options()) {
+    const bool known = std::any_of(of_model.options().begin(), of_model.options().end(),
+                                   [&](const Option& other) { return other.key == option.key; });
+    const std::string text = trial_flags.Typed(option.key);
+    if (!known && !text.empty()) typed.push_back(text);
+  }
+  if (!typed.empty()) {
+    throw InputError("the model has no such thing", typed.front(), "--engine mujoco");
+  }
+}
+
 void Trial(TrialFlags flags, const CLI::App& command, const OptionFlags& trial_flags,
            const MetricFlags& metric_flags) {
   const Protocol protocol = ProtocolOf(flags.protocol);
@@ -109,12 +135,11 @@ void Trial(TrialFlags flags, const CLI::App& command, const OptionFlags& trial_f
     metric.units = LengthUnit::kMm;
   }
   if (flags.engine == TrialEngine::kModel) {
-    for (const char* flag : {"--baseline", "--friction", "--protocol"}) {
-      if (command.count(flag) > 0) {
-        throw InputError("the model has no such thing", flag, "--engine mujoco");
-      }
-    }
+    RequireNoPhysics(command, trial_flags);
     return TrialByModel(flags, options, metric);
+  }
+  if (const std::string typed = trial_flags.Typed("trial.min_epsilon"); !typed.empty()) {
+    throw InputError("physics has no epsilon", typed, "--engine model");
   }
   flags.frictions = Frictions(flags, command, metric);
   ConsoleObserver console;

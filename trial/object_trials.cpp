@@ -25,7 +25,7 @@ struct Results {
   ExecutionsTable executions;
   MeansTable means;
   ReplayFile replays;
-  std::optional<AtomicFile> executions_file;
+  std::optional<AtomicFile> executions_file, replays_file;  // which grow with every object
   bool any = false;
   std::string first;  // object that could not be tried, and why
 };
@@ -114,6 +114,7 @@ class Call {
     for (const auto& [grasp, draw] : WorthAReplay(trial, request_.replays)) {
       results_.replays.Add(name, run.side, trials, options_.physics.tip, trial, grasp, draw);
     }
+    results_.replays_file->Append(results_.replays.TakeText());
     return summary;
   }
 
@@ -175,6 +176,7 @@ PhysicsTrialReport TryInPhysics(const PhysicsTrialRequest& request, const Metric
   if (!request.out.empty()) {
     folder.emplace(request.out, kTrialFiles, objects, request.overwrite);
     results.executions_file.emplace(folder->path() / "executions.csv");
+    results.replays_file.emplace(folder->path() / "replays.json");
   }
   Call(request, objects, metric, options, observer, &results, &report).Run(sides);
   if (!results.any) {
@@ -183,7 +185,8 @@ PhysicsTrialReport TryInPhysics(const PhysicsTrialRequest& request, const Metric
   }
   if (!folder) return report;
   results.executions_file->Commit();
-  WriteFileAtomic(folder->path() / "replays.json", results.replays.Text());
+  results.replays_file->Append(results.replays.EndText());
+  results.replays_file->Commit();
   WriteFileAtomic(folder->path() / "means.csv", results.means.text());
   WriteFileAtomic(folder->path() / "trial.toml", Constants(request, metric, options));
   folder->Commit(results.trials.text());

@@ -4,6 +4,8 @@
 #include <limits>
 #include <mutex>
 
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/format.h"
 #include "antigrasp/quality/parallel_jaws.h"
 
 namespace antigrasp {
@@ -107,6 +109,23 @@ GripStart StartOf(const TrialTable& table, const GrippedBody& body, const TrialG
   return start;
 }
 
+namespace {
+
+// A jaw's drive is a force that falls with its speed, taken in step by step: the speed settles only
+// when a step takes away no more of it than there is.
+void RequireSteadyDrive(const PhysicsOptions& o) {
+  const double most = o.close_speed * o.finger_mass / o.time_step;
+  if (o.force <= most) return;
+  throw InputError("jaws of " + FormatDouble(o.finger_mass) + " kg at " +
+                       FormatDouble(o.close_speed) + " m/s do not settle in steps of " +
+                       FormatDouble(o.time_step) + " s with " + FormatDouble(o.force) + " N",
+                   "--force",
+                   "at most " + FormatDouble(most) +
+                       " N, or a greater --finger-mass or --close-speed, or a smaller --time-step");
+}
+
+}  // namespace
+
 PhysicsTrials::PhysicsTrials(const MetricOptions& metric, const PhysicsTrialOptions& options,
                              std::uint64_t seed, int threads, Pace pace)
     : metric_(metric),
@@ -116,6 +135,7 @@ PhysicsTrials::PhysicsTrials(const MetricOptions& metric, const PhysicsTrialOpti
       threads_(threads),
       pace_(pace),
       engines_(std::make_unique<Pool>()) {
+  RequireSteadyDrive(options.physics);
   engines_->options = options.physics;
   engines_->GiveBack({MakeMujocoEngine(options.physics), 0});  // which refuses a build without it
 }

@@ -54,6 +54,8 @@ struct PhysicsTrial {
 // Tries one object after another; engines and their models are kept between objects.
 class PhysicsTrials {
  public:
+  // InputError for a force above close_speed * finger_mass / time_step: the jaws' speed would grow
+  // from step to step.
   PhysicsTrials(const MetricOptions& metric, const PhysicsTrialOptions& options, std::uint64_t seed,
                 int threads = 0, Pace pace = Pace::kEarly);
   ~PhysicsTrials();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <initializer_list>
+#include <utility>
 
 #include "antigrasp/trial/trial_summary.h"
 
@@ -88,7 +89,8 @@ void ReplayFile::Add(const std::string& object, std::string_view side, PhysicsTr
     if (!frame.state.broken && frame.state.body.matrix().allFinite()) frames.push_back(frame);
   });
   if (frames.size() < 2) return;  // nothing moved
-  std::string text = replays_.empty() ? "" : ",\n";
+  std::string text = any_ ? ",\n" : "";
+  any_ = true;
   text += R"({"object":)" + Quoted(object) + R"(,"side":")" + std::string(side) +
           R"(","protocol":")" + ChoiceName(trials->protocol().name) + R"(","grasp":)" +
           std::to_string(grasp) + R"(,"execution":)" + std::to_string(draw) + R"(,"outcome":")" +
@@ -103,12 +105,12 @@ void ReplayFile::Add(const std::string& object, std::string_view side, PhysicsTr
     const ReplayFrame& frame = frames[i * (frames.size() - 1) / (count - 1)];
     text += (i == 0 ? "" : ",\n") + FrameText(frame, trials->MeshPose(frame.state.body), tip_out);
   }
-  replays_ += text + "]}";
+  text_ += text + "]}";
 }
 
-std::string ReplayFile::Text() const {
-  return "{\"format\":\"antigrasp.replays\",\"version\":1,\"replays\":[\n" + replays_ + "\n]}\n";
-}
+std::string ReplayFile::TakeText() { return std::exchange(text_, {}); }
+
+std::string ReplayFile::EndText() { return TakeText() + "\n]}\n"; }
 
 std::vector<std::pair<std::size_t, std::size_t>> WorthAReplay(const PhysicsTrial& trial, int each) {
   std::vector<std::pair<std::size_t, std::size_t>> chosen;

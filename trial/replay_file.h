@@ -13,10 +13,14 @@ class ReplayFile {
   // An execution of the object that `trials` tried last. `side`: "after" or "before".
   void Add(const std::string& object, std::string_view side, PhysicsTrials* trials,
            const Fingertip& tip, const PhysicsTrial& trial, std::size_t grasp, std::size_t draw);
-  std::string Text() const;
+  // What the file gets next: the replays that were added since the last call; EndText() ends it.
+  // A replay takes about 20 kB, so that those of a large set do not fit into memory.
+  std::string TakeText();
+  std::string EndText();
 
  private:
-  std::string replays_;
+  std::string text_ = "{\"format\":\"antigrasp.replays\",\"version\":1,\"replays\":[\n";
+  bool any_ = false;
 };
 
 // Which executions of an object are worth a look: the best grasp that was held and the best that

@@ -69,6 +69,10 @@ std::vector<std::size_t> GraspsOf(const PhysicsTrial& trial, GraspGroup group) {
           order.begin() + static_cast<std::ptrdiff_t>(std::min(last, count))};
 }
 
+double TrialSummary::Kept() const {
+  return candidates > 0 ? static_cast<double>(grasps) / candidates : kNan;
+}
+
 TrialSummary NotTried(const std::string& object, const std::string& status,
                       const Protocol& protocol) {
   TrialSummary summary;

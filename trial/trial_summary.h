@@ -36,7 +36,7 @@ struct TrialSummary {
   double predicted = 0.0;  // share of the executions in force closure by the metric
   double quality = 0.0;    // mean robust quality
 
-  double Kept() const { return candidates > 0 ? static_cast<double>(grasps) / candidates : 0.0; }
+  double Kept() const;  // share of the candidates that became grasps; NaN where none was tried
 };
 TrialSummary SummaryOf(const std::string& object, const PhysicsTrial& trial,
                        const Protocol& protocol);

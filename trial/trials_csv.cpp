@@ -156,14 +156,13 @@ std::string TrialMeans(const std::vector<TrialSummary>& objects, const Protocol&
             MeanText(HeldOver(objects, i), 1);
   }
   std::array<std::int64_t, ChoicesOf(Outcome{}).size()> outcomes{};
-  std::int64_t executions = 0, untrusted = 0, tried = 0;
+  std::int64_t executions = 0, untrusted = 0;
   for (const TrialSummary& one : objects) {
     executions += one.executions;
     untrusted += one.untrusted;
-    tried += one.status == "ok" ? 1 : 0;
     for (std::size_t k = 0; k < outcomes.size(); ++k) outcomes[k] += one.outcomes[k];
   }
-  text += " % of the executions (mean over " + std::to_string(tried) + " of " +
+  text += " % of the executions (mean over " + std::to_string(HeldOver(objects, 0).count) + " of " +
           std::to_string(objects.size()) + " objects)\n" + std::to_string(executions) +
           " executions:";
   for (const auto& [outcome, name] : ChoicesOf(Outcome{})) {

@@ -1,0 +1,201 @@
+// `antigrasp trial` in physics, as a user meets it: tables, refusals, folders, baselines.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/mesh/mesh_file.h"
+#include "tests/app/run_binary.h"
+#include "tests/support/shapes.h"
+#include "tests/support/temp_folder.h"
+
+namespace antigrasp {
+namespace {
+
+using cli::Antigrasp;
+using cli::ExpectRefused;
+using Rows = std::vector<std::map<std::string, std::string>>;
+
+Rows Table(const std::filesystem::path& file) {
+  std::istringstream lines(ReadFile(file));
+  std::string line, field;
+  std::vector<std::string> names;
+  std::getline(lines, line);
+  for (std::istringstream header(line); std::getline(header, field, ',');) names.push_back(field);
+  Rows rows;
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    rows.emplace_back();
+    for (const std::string& name : names) {
+      field.clear();
+      std::getline(fields, field, ',');
+      rows.back()[name] = field;
+    }
+  }
+  return rows;
+}
+
+double Number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
+// Millimetres: a cube and a sphere that the gripper holds, a box that it cannot open to, one with
+// a hole.
+class TrialPhysicsCli : public testing::Test {
+ protected:
+  TrialPhysicsCli() {
+    TriangleMesh open = shapes::Box({30.0, 30.0, 30.0});
+    open.faces.pop_back();
+    for (const char* set : {"after", "before"}) {
+      std::filesystem::create_directories(folder_ / set);
+      WriteMesh(folder_ / set / "cube.stl", shapes::Box({30.0, 30.0, 30.0}));
+    }
+    WriteMesh(folder_ / "sphere.stl", shapes::Sphere(15.0, 3));
+    WriteMesh(folder_ / "wide.stl", shapes::Box({90.0, 90.0, 90.0}));
+    WriteMesh(folder_ / "open.stl", open);
+    WriteMesh(folder_ / "after" / "other.stl", shapes::Box({30.0, 30.0, 60.0}));
+    WriteMesh(folder_ / "before" / "other.stl", open);
+  }
+  std::string File(const std::string& name) const { return (folder_ / name).string(); }
+  std::string Trial(const std::string& object) const {
+    return "trial " + File(object) + " --mm --num-grasps 6 --draws 2 --num-draws 2 ";
+  }
+  cli::Outcome Run(const std::string& arguments) const {
+    const cli::Outcome outcome = Antigrasp(arguments);
+    EXPECT_EQ(outcome.code, 0) << arguments << "\n" << outcome.text;
+    return outcome;
+  }
+  shapes::TempFolder folder_;
+};
+
+TEST_F(TrialPhysicsCli, EveryExecutionIsARowAndOneOutcome) {
+  Run(Trial("after/cube.stl") + "--out " + File("t"));
+  const Rows trials = Table(folder_ / "t" / "trials.csv");
+  const Rows executions = Table(folder_ / "t" / "executions.csv");
+  ASSERT_EQ(trials.size(), 1u);
+  auto row = trials[0];
+  EXPECT_EQ(row["object"], "cube.stl");
+  EXPECT_EQ(row["status"], "ok");
+  EXPECT_EQ(row["side"], "after");
+  EXPECT_NEAR(Number(row["mass"]), 0.027, 1e-12);  // 30 mm cubed of 1000 kg/m3
+  EXPECT_EQ(row["poses"], "6");
+  EXPECT_EQ(row["grasps"], "6");
+  EXPECT_EQ(row["executions"], "12");
+  EXPECT_EQ(executions.size(), 12u);
+  std::map<std::string, int> outcomes;
+  int deep = 0;
+  for (auto execution : executions) {
+    ++outcomes[execution["outcome"]];
+    deep += Number(execution["penetration_mm"]) > 0.1 ? 1 : 0;
+  }
+  EXPECT_NEAR(Number(row["held"]), outcomes["held"] / 12.0, 1e-12);
+  int sum = outcomes["held"];
+  for (const auto& [column, outcome] :
+       std::map<std::string, std::string>{{"slipped", "slipped"},
+                                          {"turned_away", "turned away"},
+                                          {"lost_closing", "lost closing"},
+                                          {"never_touched", "never touched"},
+                                          {"started_in_collision", "started in collision"},
+                                          {"unstable", "unstable"}}) {
+    EXPECT_EQ(Number(row[column]), outcomes[outcome]) << column;
+    sum += outcomes[outcome];
+  }
+  EXPECT_EQ(sum, 12);
+  EXPECT_EQ(Number(row["untrusted"]), deep);
+}
+
+TEST_F(TrialPhysicsCli, CubeAndSphereAreHeldWithoutNoiseAndNothingWithoutFriction) {
+  const std::string both = Trial("after/cube.stl") + File("sphere.stl") + " --noise none --out ";
+  Run(both + File("held"));
+  for (auto row : Table(folder_ / "held" / "trials.csv")) EXPECT_EQ(row["held"], "1");
+  Run(both + File("lost") + " --friction 0");
+  for (auto row : Table(folder_ / "lost" / "trials.csv")) EXPECT_EQ(row["held"], "0");
+}
+
+TEST_F(TrialPhysicsCli, EveryFileHasTheSameBytesForAnyNumberOfThreads) {
+  const std::string command = Trial("after") + "--baseline " + File("before") + " --out ";
+  Run(command + File("one") + " --threads 1");
+  Run(command + File("three") + " --threads 3");
+  const auto one = shapes::FileContents(folder_ / "one");
+  EXPECT_EQ(one.size(), 5u);
+  EXPECT_TRUE(one == shapes::FileContents(folder_ / "three"));
+}
+
+// The original of `other` has a hole: it pairs in nothing, the share of candidates included.
+TEST_F(TrialPhysicsCli, ABaselinePairsWhatBothSidesHave) {
+  const std::string text =
+      Run(Trial("after") + "--baseline " + File("before") + " --out " + File("t")).text;
+  EXPECT_NE(text.find("(1 pairs)"), std::string::npos) << text;
+  const Rows trials = Table(folder_ / "t" / "trials.csv");
+  EXPECT_EQ(trials.size(), 8u);  // two objects, two sides, own and equal mass
+  for (auto row : trials) {
+    if (row["masses"] == "equal" && row["status"] == "ok") {
+      EXPECT_EQ(row["mass"], "0.05");
+    }
+  }
+  for (auto row : Table(folder_ / "t" / "means.csv")) {
+    EXPECT_EQ(row["objects"], "2") << row["grasps"];
+    EXPECT_EQ(row["pairs"], "1") << row["grasps"];
+    EXPECT_EQ(Number(row["difference"]), 0.0) << row["grasps"];  // the same cube on both sides
+  }
+  ExpectRefused(Trial("sphere.stl") + "--baseline " + File("before"),
+                "expected exactly one object");
+}
+
+TEST_F(TrialPhysicsCli, AnObjectThatCannotBeTriedIsCountedBesideOthers) {
+  const std::string text =
+      Run(Trial("after/cube.stl") + File("wide.stl") + " " + File("open.stl")).text;
+  // Without a reachable grasp nothing of it is held; with a hole nothing is known.
+  EXPECT_NE(text.find("mean over 2 of 3 objects"), std::string::npos) << text;
+  EXPECT_NE(text.find("no reachable grasp"), std::string::npos) << text;
+  EXPECT_NE(text.find("open: 3 boundary edges"), std::string::npos) << text;
+  const cli::Outcome alone = Antigrasp(Trial("wide.stl") + "--out " + File("none"));
+  EXPECT_EQ(alone.code, 2) << alone.text;
+  EXPECT_NE(alone.text.find("wide.stl: no reachable grasp"), std::string::npos) << alone.text;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
+}
+
+TEST_F(TrialPhysicsCli, AUsedFolderStaysAsItIsUnlessItMayBeOverwritten) {
+  const std::string command = Trial("after/cube.stl") + "--out " + File("t");
+  Run(command);
+  folder_.Write("t/notes.txt", "mine");
+  const auto before = shapes::FileContents(folder_ / "t");
+  ExpectRefused(command + " --seed 2", "holds trials.csv already");
+  EXPECT_TRUE(before == shapes::FileContents(folder_ / "t"));
+  Run(command + " --seed 2 --overwrite");
+  auto after = shapes::FileContents(folder_ / "t");
+  EXPECT_EQ(after.size(), before.size());
+  EXPECT_EQ(after["notes.txt"], "mine");
+  EXPECT_NE(after["executions.csv"], before.at("executions.csv"));
+  folder_.Write("file", "");
+  ExpectRefused(Trial("after/cube.stl") + "--out " + File("file"), "expected a folder");
+}
+
+TEST_F(TrialPhysicsCli, WhatCannotBeIsRefusedInOneLine) {
+  const std::string cube = Trial("after/cube.stl");
+  ExpectRefused(cube + "--protocol none", "--protocol");
+  ExpectRefused(cube + "--friction -0.1", "--friction");
+  ExpectRefused(cube + "--mass -1", "--mass");
+  ExpectRefused(cube + "--equal-mass 0", "--equal-mass");
+  ExpectRefused(cube + "--time-step 0.1", "--time-step");
+  ExpectRefused(cube + "--friction 0.3 --friction-angle 20", "excludes");
+  ExpectRefused(cube + "--min-epsilon 0.1", "--engine model");
+  ExpectRefused("trial " + File("after/cube.stl") + " --engine model --protocol paper",
+                "--engine mujoco");
+  ExpectRefused("trial " + File("after/cube.stl") + " --engine model --tip pad", "--tip pad");
+}
+
+// The jaws' speed settles up to 0.04 m/s * 1 kg / 1 ms = 40 N. A heavier finger carries more.
+TEST_F(TrialPhysicsCli, AForceThatShakesTheJawsIsRefused) {
+  const std::string cube = Trial("after/cube.stl") + "--noise none --out " + File("t");
+  ExpectRefused(cube + " --force 40.1", "at most 40 N");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "t"));
+  Run(cube + " --force 100 --finger-mass 4");
+  EXPECT_EQ(Table(folder_ / "t" / "trials.csv")[0]["held"], "1");
+}
+
+}  // namespace
+}  // namespace antigrasp
