@@ -97,7 +97,32 @@ std::vector<double> Frictions(const TrialFlags& flags, const CLI::App& command,
   return frictions;
 }
 
-// No flag is accepted and then not used.
+// No flag is accepted and then not used: in physics, and by the model.
+void RequireUsed(const Protocol& protocol, TipShape tip, const OptionFlags& trial_flags) {
+  const auto refuse = [&](const std::string& who, const std::vector<std::string>& keys,
+                          const std::string& expected) {
+    for (const std::string& key : keys) {
+      const std::string typed = trial_flags.Typed("trial." + key);
+      if (!typed.empty()) throw InputError(who + " has no such thing", typed, expected);
+    }
+  };
+  const std::string name = "protocol " + ChoiceName(protocol.name);
+  refuse("physics", {"min_epsilon"}, "--engine model");
+  if (protocol.choice == GraspChoice::kBestUnused) {
+    refuse(name, {"draws"}, "--executions");
+  } else {
+    refuse(name, {"series", "grasps_per_series", "executions"}, "--draws, or --protocol paper");
+  }
+  if (!protocol.table) {
+    refuse(name, {"approach_cone", "table_clearance", "table_friction"}, "a protocol with a table");
+  }
+  if (tip == TipShape::kSphere) {
+    refuse("a ball", {"pad_width", "pad_height"}, "--tip pad");
+  } else {
+    refuse("a pad", {"tip_radius", "patch_radius"}, "--tip sphere");
+  }
+}
+
 void RequireNoPhysics(const CLI::App& command, const OptionFlags& trial_flags) {
   std::vector<std::string> typed;
   for (const char* flag :
@@ -138,9 +163,7 @@ void Trial(TrialFlags flags, const CLI::App& command, const OptionFlags& trial_f
     RequireNoPhysics(command, trial_flags);
     return TrialByModel(flags, options, metric);
   }
-  if (const std::string typed = trial_flags.Typed("trial.min_epsilon"); !typed.empty()) {
-    throw InputError("physics has no epsilon", typed, "--engine model");
-  }
+  RequireUsed(protocol, options.physics.tip.shape, trial_flags);
   flags.frictions = Frictions(flags, command, metric);
   ConsoleObserver console;
   const PhysicsTrialReport report = TryInPhysics(flags, metric, options, &console);

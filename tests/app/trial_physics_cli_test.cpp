@@ -183,6 +183,11 @@ TEST_F(TrialPhysicsCli, WhatCannotBeIsRefusedInOneLine) {
   ExpectRefused(cube + "--time-step 0.1", "--time-step");
   ExpectRefused(cube + "--friction 0.3 --friction-angle 20", "excludes");
   ExpectRefused(cube + "--min-epsilon 0.1", "--engine model");
+  ExpectRefused(cube + "--series 3", "protocol six-ways has no such thing (--series 3)");
+  ExpectRefused(cube + "--protocol paper", "protocol paper has no such thing (--draws 2)");
+  ExpectRefused(cube + "--protocol dexgraspbench --table-friction 1", "a protocol with a table");
+  ExpectRefused(cube + "--pad-width 0.01", "--tip pad");
+  ExpectRefused(cube + "--tip pad --tip-radius 0.01", "--tip sphere");
   ExpectRefused("trial " + File("after/cube.stl") + " --engine model --protocol paper",
                 "--engine mujoco");
   ExpectRefused("trial " + File("after/cube.stl") + " --engine model --tip pad", "--tip pad");
