@@ -3,11 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "antigrasp/core/angles.h"
+#include "antigrasp/core/csv_reader.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/format.h"
 
 namespace antigrasp {
 namespace {
+
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* kHalfWidthBefore = "held_before_half_width";  // earlier tables lack it
 
 std::string Underscored(std::string name) {
   std::replace(name.begin(), name.end(), ' ', '_');
@@ -101,7 +108,8 @@ void ExecutionsTable::Add(const TrialRun& run, const std::string& object,
 
 MeansTable::MeansTable()
     : csv_({"protocol", "masses", "friction", "stage", "grasps", "objects", "held",
-            "held_half_width", "held_before", "pairs", "difference", "difference_half_width"}) {}
+            "held_half_width", "held_before", "pairs", "difference", "difference_half_width",
+            kHalfWidthBefore}) {}
 
 void MeansTable::Add(const TrialRun& run, const Protocol& protocol,
                      const std::vector<TrialSummary>& after,
@@ -116,10 +124,11 @@ void MeansTable::Add(const TrialRun& run, const Protocol& protocol,
       of_pairs.push_back(original + 0.0 * difference.back());
     }
     const MeanInterval mean = MeanWithInterval(held), change = MeanWithInterval(difference);
+    const MeanInterval original = MeanWithInterval(of_pairs);
     csv_.Text(run.protocol).Text(run.masses).Number(run.friction).Text(stage).Text(grasps);
     csv_.Count(mean.count).NumbersOrGaps({mean.mean, mean.half_width});
-    csv_.NumberOrGap(MeanWithInterval(of_pairs).mean).Count(change.count);
-    csv_.NumbersOrGaps({change.mean, change.half_width}).EndRow();
+    csv_.NumberOrGap(original.mean).Count(change.count);
+    csv_.NumbersOrGaps({change.mean, change.half_width, original.half_width}).EndRow();
   };
   for (std::size_t stage = 0; stage < protocol.stages.size(); ++stage) {
     row(protocol.stages[stage].name, "all",
@@ -132,6 +141,35 @@ void MeansTable::Add(const TrialRun& run, const Protocol& protocol,
   row(protocol.stages.front().name, "force closure",
       [](const TrialSummary& one) { return one.predicted; });
   row("", "candidates kept", [](const TrialSummary& one) { return one.Kept(); });
+}
+
+std::vector<TrialMean> ReadTrialMeans(const std::filesystem::path& path) {
+  CsvReader csv(path);
+  const auto text = [&](const char* name) { return csv.Field(csv.RequiredColumn(name)); };
+  const auto number = [&](const char* name, double low, double high) {
+    const double value = csv.NumberOrGap(csv.RequiredColumn(name));
+    if (std::isnan(value) || (low <= value && value <= high)) return value;
+    throw InputError(std::string(name) + " = " + FormatDouble(value), csv.Where(),
+                     "a number in [" + FormatDouble(low) + ", " + FormatDouble(high) + "]");
+  };
+  const auto count = [&](const char* name) {
+    const double value = number(name, 0.0, 1e9);
+    return std::isnan(value) ? 0 : static_cast<int>(value);
+  };
+  std::vector<TrialMean> rows;
+  while (csv.Next()) {
+    TrialMean row{text("protocol"), text("masses"), number("friction", 0.0, 1e6), text("stage"),
+                  text("grasps")};
+    if (std::isnan(row.friction)) throw InputError("no friction", csv.Where(), "a number");
+    row.held = {number("held", 0.0, 100.0), number("held_half_width", 0.0, 1e6), count("objects")};
+    row.before = {number("held_before", 0.0, 100.0), kNoNumber, count("pairs")};
+    if (csv.Column(kHalfWidthBefore)) row.before.half_width = number(kHalfWidthBefore, 0.0, 1e6);
+    row.difference = {number("difference", -100.0, 100.0),
+                      number("difference_half_width", 0.0, 1e6), row.before.count};
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) throw InputError("no rows", path.string(), "means.csv of antigrasp trial");
+  return rows;
 }
 
 std::string TrialLines(const std::vector<TrialSummary>& objects, const Protocol& protocol) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,18 @@ class MeansTable {
  private:
   CsvWriter csv_;
 };
+
+// A row of means.csv. NaN: a gap.
+struct TrialMean {
+  std::string protocol, masses;
+  double friction = 0.0;
+  std::string stage, grasps;
+  // Percent of the objects; of their originals and the change, in points, of the pairs.
+  MeanInterval held = {}, before = {}, difference = {};
+};
+
+// InputError with file:line for a table that is damaged, without rows or of another kind.
+std::vector<TrialMean> ReadTrialMeans(const std::filesystem::path& path);
 
 // The same for the eye.
 std::string TrialLines(const std::vector<TrialSummary>& objects, const Protocol& protocol);
