@@ -26,11 +26,9 @@ struct CommonFlags {
   }
 };
 
-std::shared_ptr<CommonFlags> AddCommonFlags(CLI::App* command) {
+std::shared_ptr<CommonFlags> AddPageFlags(CLI::App* command) {
   const auto flags = std::make_shared<CommonFlags>();
   FigureOptions& o = flags->options;
-  o.view.samples = 3;
-  o.view.crease = 40.0;  // smoother than a contact sheet, as the paper shows its objects
   command->add_option("--out", flags->out, "picture, .svg or .png")->required();
   command->add_option("--width-mm", o.width_mm, "of the page, mm")
       ->check(NumberIn(20.0, 2000.0))
@@ -38,6 +36,15 @@ std::shared_ptr<CommonFlags> AddCommonFlags(CLI::App* command) {
   command->add_option("--dpi", o.dpi, "pixels per inch: of a PNG, of the objects in an SVG")
       ->check(NumberIn(30.0, 1200.0))
       ->capture_default_str();
+  return flags;
+}
+
+// With the camera of those that show objects.
+std::shared_ptr<CommonFlags> AddCommonFlags(CLI::App* command) {
+  const auto flags = AddPageFlags(command);
+  FigureOptions& o = flags->options;
+  o.view.samples = 3;
+  o.view.crease = 40.0;  // smoother than a contact sheet, as the paper shows its objects
   command->add_option("--azimuth", o.view.azimuth, "of the camera about z, degrees from x")
       ->check(NumberIn(-360.0, 360.0))
       ->capture_default_str();
@@ -195,6 +202,19 @@ void AddFigure4(CLI::App* figure) {
   });
 }
 
+void AddFigureOfTrials(CLI::App* figure) {
+  const auto folders = std::make_shared<std::vector<std::string>>();
+  CLI::App* command =
+      figure->add_subcommand("trial", "How many grasps hold, over friction and over load");
+  command->add_option("FOLDER", *folders, "folders that antigrasp trial --out wrote")->required();
+  const auto common = AddPageFlags(command);
+  command->callback([folders, common] {
+    common->Check();
+    WriteTrialFigure(common->out, TriedFigure(*folders), common->options);
+    Done(*common);
+  });
+}
+
 }  // namespace
 
 void AddFigureCommand(CLI::App* app) {
@@ -205,6 +225,7 @@ void AddFigureCommand(CLI::App* app) {
   AddFigure2(figure);
   AddFigure3(figure);
   AddFigure4(figure);
+  AddFigureOfTrials(figure);
 }
 
 }  // namespace antigrasp

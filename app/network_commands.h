@@ -17,7 +17,7 @@ inline constexpr NetworkCommand kSample{"sample", "Sample SDF grids from a check
 inline constexpr NetworkCommand kReport{"report",
                                         "Write a page to look at in a browser: one HTML file"};
 inline constexpr NetworkCommand kFigure{
-    "figure", "Draw the paper's figures 1 to 4 of your own objects and runs"};
+    "figure", "Draw the paper's figures 1 to 4 of your own objects and runs, and trials"};
 inline constexpr NetworkCommand kGenerator{
     "generator", "Write the networks of a checkpoint alone, float16, to share and start from"};
 

@@ -15,6 +15,7 @@
 #include "antigrasp/report/figures/histogram.h"
 #include "antigrasp/sdf/mesh_to_sdf.h"
 #include "antigrasp/sdf/remesh.h"
+#include "antigrasp/trial/trial_folders.h"
 
 namespace antigrasp {
 namespace {
@@ -190,6 +191,27 @@ RowFigure PerturbFigure(const std::vector<std::string>& folders,
   figure.values_name = "perturbed";
   figure.reference_name = "originals";
   figure.axis = "graspability / mean of the originals";
+  return figure;
+}
+
+TrialFigure TriedFigure(const std::vector<std::string>& folders) {
+  const TriedFolders tried = ReadTrialFolders(folders);
+  const TrialJudge& judge = tried.judge;
+  char text[48];
+  std::snprintf(text, sizeof text, "equal mass, %.4g g", 1000.0 * judge.equal_mass);
+  TrialFigure figure;
+  int fewest = std::numeric_limits<int>::max(), most = 0;
+  for (const TrialMean& row : tried.rows) {
+    figure.sets.push_back({row.masses == "equal" ? text : row.masses + " mass", row.friction,
+                           row.stage, row.held, row.before});
+    fewest = std::min(fewest, row.held.count);
+    most = std::max(most, row.held.count);
+  }
+  const std::string objects = fewest == most
+                                  ? std::to_string(most)
+                                  : std::to_string(fewest) + " to " + std::to_string(most);
+  figure.caption = "judge: " + judge.engine + ", protocol " + judge.protocol + ", fingertip " +
+                   judge.tip + "; " + objects + " objects, all grasps; 95 % intervals over objects";
   return figure;
 }
 

@@ -9,12 +9,13 @@
 #include "antigrasp/report/figures/grasp_figure.h"
 #include "antigrasp/report/figures/row_figure.h"
 #include "antigrasp/report/figures/sdf_figure.h"
+#include "antigrasp/report/figures/trial_figure.h"
 #include "antigrasp/train/make_gan.h"
 
 namespace antigrasp {
 
-// What the commands `figure 1` to `figure 4` draw, read from what other commands wrote. Bad input
-// is an InputError; a number that is missing or none is a gap.
+// What the commands `figure 1` to `figure 4` and `figure trial` draw, read from what other commands
+// wrote. Bad input is an InputError; a number that is missing or none is a gap.
 
 // Objects with their grasps, all under the same random numbers. Objects of one name are told apart
 // by their folders. `labels`: instead of the names, none or one an object.
@@ -42,5 +43,9 @@ RowFigure PerturbFigure(const std::vector<std::string>& folders,
 // with.
 RowFigure RunFigure(const std::filesystem::path& run, std::vector<int> episodes, int examples,
                     int threads, RunObserver* observer, const ShapeModelMaker& make = MakeGan);
+
+// Folders that `antigrasp trial --out` wrote by one judge: all grasps, at each friction, load and
+// kind of mass.
+TrialFigure TriedFigure(const std::vector<std::string>& folders);
 
 }  // namespace antigrasp

@@ -24,4 +24,7 @@ Color ReliabilityColor(double share);
 // orange. Values outside are cut, NaN is grey.
 Color SignedColor(double share);
 
+// Of a series of lines in an order: 0 light blue, 1 dark blue. Values outside are cut, NaN is grey.
+Color DegreeColor(double share);
+
 }  // namespace antigrasp

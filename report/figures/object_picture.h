@@ -8,7 +8,7 @@
 
 namespace antigrasp {
 
-// What the four figures share.
+// What the figures share.
 struct FigureOptions {
   double width_mm = 180.0;  // of the page; a journal's two columns
   double dpi = 300.0;       // of the rendered objects, and of a PNG

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kTickLength = 2.0;
 constexpr double kAxisWidth = 0.5;
+constexpr double kIntervalWidth = 0.7, kCap = 2.0;  // of an interval's bar, half of its ends
 
 double Step(double low, double high, int count) {
   const double rough = (high - low) / std::max(count, 1);
@@ -64,12 +65,19 @@ void Plot::DrawAxes() {
     }
   }
   style.align = Align::kMiddle;
-  for (const double tick : Ticks(x_.low, x_.high, along)) {
-    const Place at = At(tick, y_.low);
+  const auto tick_below = [&](double x, const std::string& text) {
+    const Place at = At(x, y_.low);
     canvas_->Line({at, {at.x, at.y + kTickLength}}, kMuted, kAxisWidth);
     if (x_.numbers) {
-      canvas_->Text(TickText(tick, x_.percent), {at.x, at.y + 1.8 * kTickLength + kTickText * 0.8},
-                    style);
+      canvas_->Text(text, {at.x, at.y + 1.8 * kTickLength + kTickText * 0.8}, style);
+    }
+  };
+  for (std::size_t k = 0; k < x_.names.size(); ++k) {
+    tick_below(static_cast<double>(k), x_.names[k]);
+  }
+  if (x_.names.empty()) {
+    for (const double tick : Ticks(x_.low, x_.high, along)) {
+      tick_below(tick, TickText(tick, x_.percent));
     }
   }
   canvas_->Line({{area_.x, area_.y}, {area_.x, area_.Bottom()}, {area_.Right(), area_.Bottom()}},
@@ -101,11 +109,11 @@ void Plot::DrawOutline(const Histogram& histogram, const Color& color, double wi
 }
 
 void Plot::DrawLine(const std::vector<double>& x, const std::vector<double>& y, const Color& color,
-                    double width) {
+                    double width, const std::vector<double>& dashes) {
   std::vector<Place> piece;
   const auto finish = [&] {
     if (piece.size() == 1) canvas_->Dot(piece.front(), 1.5 * width, color);
-    if (piece.size() > 1) canvas_->Line(piece, color, width);
+    if (piece.size() > 1) canvas_->Line(piece, color, width, dashes);
     piece.clear();
   };
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
@@ -116,6 +124,22 @@ void Plot::DrawLine(const std::vector<double>& x, const std::vector<double>& y, 
     }
   }
   finish();
+}
+
+void Plot::DrawPoint(double x, double y, const Color& color, double width, bool ring) {
+  if (!std::isfinite(x) || !std::isfinite(y)) return;
+  canvas_->Dot(At(x, y), 1.5 * width, color);
+  if (ring) canvas_->Dot(At(x, y), 0.9 * width, {1.0, 1.0, 1.0});
+}
+
+void Plot::DrawInterval(double x, double y, double half_width, const Color& color) {
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(half_width)) return;
+  const Place low = At(x, std::max(y - half_width, y_.low));
+  const Place high = At(x, std::min(y + half_width, y_.high));
+  canvas_->Line({low, high}, color, kIntervalWidth);
+  for (const Place& end : {low, high}) {
+    canvas_->Line({{end.x - kCap, end.y}, {end.x + kCap, end.y}}, color, kIntervalWidth);
+  }
 }
 
 void Plot::DrawMark(double x, const Color& color, double width, const std::vector<double>& dashes) {

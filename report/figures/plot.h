@@ -14,6 +14,7 @@ struct Scale {
   std::string label;
   bool numbers = true;  // beside the ticks; panels that share an axis write them once
   bool percent = false;
+  std::vector<std::string> names = {};  // of x = 0, 1, ...; in place of numbers
 };
 
 // Round numbers (1, 2 or 5 times a power of ten apart) inside [low, high], about `count` of them;
@@ -35,7 +36,10 @@ class Plot {
   void DrawOutline(const Histogram& histogram, const Color& color, double width);
   // NaN breaks the line; a lone point is a dot.
   void DrawLine(const std::vector<double>& x, const std::vector<double>& y, const Color& color,
-                double width);
+                double width, const std::vector<double>& dashes = {});
+  // A dot, or a ring; and a bar over y +- half_width as far as the plot reaches. NaN: none.
+  void DrawPoint(double x, double y, const Color& color, double width, bool ring = false);
+  void DrawInterval(double x, double y, double half_width, const Color& color);
   // Upright through the whole plot.
   void DrawMark(double x, const Color& color, double width, const std::vector<double>& dashes);
 

@@ -152,5 +152,37 @@ TEST(FigureNumbersCli, Figure1NamesObjectsByTheirFoldersAndSaysItsConeAndCounts)
   }
 }
 
+TEST(FigureNumbersCli, TrialsSayTheirJudgeTheirObjectsAndTheirSeries) {
+  const TempFolder folder;
+  const std::string head =
+      "protocol,masses,friction,stage,grasps,objects,held,held_half_width,held_before,"
+      "pairs,difference,difference_half_width,held_before_half_width\n";
+  const std::string constants =
+      "engine = \"mujoco 2.2.2\"\nequal_mass = 0.03\n[trial]\ntip = \"pad\"\n";
+  folder.Write("low/means.csv", head +
+                                    "six-ways,own,0.25,1 g,all,48,60,2,70,48,-10,1,2\n"
+                                    "six-ways,equal,0.25,1 g,all,48,50,2,60,48,-10,1,2\n");
+  folder.Write("low/trial.toml", constants);
+  folder.Write("high/means.csv", head + "six-ways,own,0.5,1 g,all,50,80,2,,0,,,\n");
+  folder.Write("high/trial.toml", constants);
+  const std::string low = (folder / "low").string(), high = (folder / "high").string();
+  const Texts words = Words(Drawn(folder, "trial " + low + " " + high));
+  for (const char* text :
+       {"friction", "held at 1 g, %", "own mass", "equal mass, 30 g", "after", "before", "load",
+        "judge: mujoco 2.2.2, protocol six-ways, fingertip pad of 20 x 20 mm; 48 to 50 objects, "
+        "all "
+        "grasps; 95 % intervals over objects"}) {
+    EXPECT_NE(std::find(words.begin(), words.end(), text), words.end())
+        << text << " in " << testing::PrintToString(words);
+  }
+  const Texts alone = Words(Drawn(folder, "trial " + high));
+  EXPECT_EQ(std::find(alone.begin(), alone.end(), "before"), alone.end());
+  const Outcome twice =
+      Antigrasp("figure trial " + low + " " + low + " --out " + (folder / "x.png").string());
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_NE(twice.text.find("friction 0.25, own mass once more"), std::string::npos) << twice.text;
+  EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
+}
+
 }  // namespace
 }  // namespace antigrasp

@@ -53,5 +53,15 @@ TEST(Color, NoNumberIsGrey) {
   }
 }
 
+TEST(Color, DegreesGoFromLightToDark) {
+  const auto lightness = [](double share) {
+    const Color color = DegreeColor(share);
+    return 0.3 * color.r + 0.6 * color.g + 0.1 * color.b;
+  };
+  for (int k = 0; k < 5; ++k) EXPECT_GT(lightness(0.2 * k), lightness(0.2 * (k + 1)) + 0.05) << k;
+  EXPECT_EQ(DegreeColor(-1.0).g, DegreeColor(0.0).g);
+  EXPECT_EQ(DegreeColor(std::nan("")).r, DegreeColor(std::nan("")).b);  // grey
+}
+
 }  // namespace
 }  // namespace antigrasp
