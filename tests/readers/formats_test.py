@@ -21,7 +21,7 @@ CUBE = """v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 2\nv 1 0 2\nv 1 1 2\nv 0 1 2
 f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"""
 GRASP = ("p1x,p1y,p1z,n1x,n1y,n1z,p2x,p2y,p2z,n2x,n2y,n2z,comx,comy,comz\n"
          "-0.02,0,0,-1,0,0,0.02,0,0,1,0,0,0,0,0\n")
-TRIAL = ["--series", "1", "--grasps-per-series", "1", "--executions", "1"]
+TRIAL = ["--engine", "model", "--series", "1", "--grasps-per-series", "1", "--executions", "1"]
 QUICK = ["--num-grasps", "20", "--num-draws", "3"]
 
 
@@ -118,6 +118,16 @@ class Formats(unittest.TestCase):
         self.assertEqual(list(expanded(listed_columns(section("Print check")))), self.header("e/print.csv"))
         means = section("Means")
         self.assertEqual(listed_columns(means[means.index("Of perturbed objects"):]), self.header("p/summary.csv"))
+
+    def test_the_tables_of_a_trial_have_the_listed_columns_in_their_order(self):
+        words = ["trial", "box.obj", "--num-grasps", "1", "--num-draws", "1", "--draws", "1", "--out", "t"]
+        done = subprocess.run([BINARY, *words], cwd=self.path, capture_output=True, text=True)
+        if "MuJoCo" in done.stderr and done.returncode:
+            self.skipTest("a build without MuJoCo")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for table in ("trials.csv", "means.csv", "executions.csv"):
+            listed = listed_columns(DOCUMENT[DOCUMENT.index(f"Columns of `{table}`:"):])
+            self.assertEqual(listed, self.header(f"t/{table}"))
 
     def test_every_list_of_columns_in_a_sentence_is_that_of_a_file(self):
         self.call("remesh", "batch.h5", "--out", "m")
