@@ -140,7 +140,9 @@ class Formats(unittest.TestCase):
         lists = [list(expanded(re.split(", ?", code))) for code in codes(DOCUMENT)]
         for table in ("m/remesh.csv", "h/history.csv", "i.csv", "c.csv", "poses.csv", "trial.csv", "q.csv", "scores.csv"):
             header = self.header(table)
-            self.assertTrue(header in lists, f"{table}: {', '.join(header)}")
+            # A list that goes on ("...") names columns that are there at some constants only.
+            said = any(header == names or names[-1] == "..." and header == names[:len(header)] for names in lists)
+            self.assertTrue(said, f"{table}: {', '.join(header)}")
         grasps = section("Scores")
         said = set(expanded(cell_names(grasps[grasps.index("`--grasps grasps.csv`"):])))
         self.assertEqual(set(self.header("grasps.csv")) - said, set())
