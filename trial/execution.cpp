@@ -58,13 +58,12 @@ class Run {
  private:
   // Whether there is anything to simulate; the jaws are taken to where they first touch.
   bool Starts() {
-    const double most = 0.5 * start_.opening;
     if (Overlaps(start_.travel)) {
       result_.outcome = Outcome::kStartedInCollision;
       return false;
     }
     if (early_) {
-      const std::optional<double> touch = TravelToTouch(most);
+      const std::optional<double> touch = TravelToTouch(start_.body, start_.travel);
       if (!touch) {
         result_.outcome = Outcome::kNeverTouched;
         return false;
@@ -204,13 +203,15 @@ class Run {
   }
   bool Gone() const {
     if (Met()) return true;
-    // While the jaws close, one of them may push the body before the other touches.
-    return held_ ? since_both_ > kLostSeconds || Move() > kGone
-                 : touched_ && since_any_ > kLostSeconds;
+    if (held_) return since_both_ > kLostSeconds || Move() > kGone;
+    // While the jaws close, one of them may push the body away and the other one catch it: it is
+    // gone when it lies still where neither comes.
+    return touched_ && since_any_ > kLostSeconds && Speed() < kStill &&
+           !TravelToTouch(state_.body, state_.travel);
   }
   int Settled(int steps) const { return state_.sticks && Speed() < kSettled ? steps + 1 : 0; }
 
-  // ---- before anything moves ----
+  // ---- where the jaws are and come ----
 
   Vector3d TipCenter(int tip, double travel) const {
     const double out = 0.5 * start_.opening + options_.tip.Half().x() - travel;
@@ -229,8 +230,8 @@ class Run {
     return false;
   }
 
-  double Clearance(double travel, double limit) const {
-    const Isometry3d to_body = start_.body.inverse();
+  double Clearance(const Isometry3d& body, double travel, double limit) const {
+    const Isometry3d to_body = body.inverse();
     double nearest = limit;
     for (int tip = 0; tip < 2; ++tip) {
       const Vector3d center = TipCenter(tip, travel);
@@ -244,12 +245,12 @@ class Run {
     return nearest;
   }
 
-  // Conservative advancement: until a fingertip touches, nothing moves but the jaws.
-  std::optional<double> TravelToTouch(double most) const {
+  // Conservative advancement of the jaws from this travel on, past a body that stays where it is.
+  std::optional<double> TravelToTouch(const Isometry3d& body, double travel) const {
     constexpr double kNear = 2e-5;
-    double travel = start_.travel;
+    const double most = 0.5 * start_.opening;
     while (travel < most) {
-      const double clear = Clearance(travel, most);
+      const double clear = Clearance(body, travel, most);
       if (clear < kNear) return travel;
       travel += clear;
     }

@@ -61,6 +61,25 @@ TEST(PhysicsTrials, DecideEarlyAsTheyWouldAtTheEnd) {
   EXPECT_LE(ShareOther(early, fixed), 0.02);
 }
 
+// One jaw throws it off, it flies free for longer than a held object may, and the other catches it.
+TEST(PhysicsTrials, GiveNothingUpThatTheOtherJawWillCatch) {
+  const TriangleMesh hull = RandomHull(2, 30, {0.02, 0.03, 0.04});
+  MetricOptions metric = Metric(20, 0.3);
+  metric.object_min_extent = 0.0;
+  const PhysicsTrial early = TryOnce(hull, metric, {});
+  const PhysicsTrial fixed = TryOnce(hull, metric, {}, 0, Pace::kFixed);
+  int given_up = 0, lost = 0;
+  for (std::size_t i = 0; i < early.grasps.size(); ++i) {
+    for (std::size_t k = 0; k < early.grasps[i].draws.size(); ++k) {
+      if (early.grasps[i].draws[k].execution.outcome != Outcome::kLostClosing) continue;
+      ++lost;
+      given_up += fixed.grasps[i].draws[k].execution.outcome == Outcome::kHeld ? 1 : 0;
+    }
+  }
+  EXPECT_GT(lost, 0);
+  EXPECT_LE(given_up, 1);  // of 100: they do not start at the same speed
+}
+
 TEST(PhysicsTrials, HalfTheTimeStepChangesFewOutcomes) {
   const TriangleMesh cube = BevelledCube(15.0, 0.04);
   PhysicsTrialOptions half;

@@ -12,14 +12,12 @@
 #include <vector>
 
 #include "antigrasp/core/choice.h"
-#include "antigrasp/core/rng.h"
 #include "antigrasp/mesh/convex_hull.h"
 #include "antigrasp/quality/metric_options.h"
 #include "antigrasp/trial/execution.h"
 #include "antigrasp/trial/gripped_body.h"
 #include "antigrasp/trial/physics_trial.h"
 #include "antigrasp/trial/trial_table.h"
-#include "tests/support/random_draws.h"
 #include "tests/trial/physics_shapes.h"
 
 namespace antigrasp {
@@ -42,13 +40,6 @@ TriangleMesh Cuboctahedron(double edge) {
       corners.push_back(edge / std::sqrt(2.0) * corner);
     }
   }
-  return ConvexHull(corners);
-}
-
-TriangleMesh RandomHull(std::uint64_t stream, int points, const Vector3d& half) {
-  RngStream rng(kSeed, "hull", stream);
-  std::vector<Vector3d> corners;
-  for (int i = 0; i < points; ++i) corners.push_back(half.cwiseProduct(DrawDirection(&rng)));
   return ConvexHull(corners);
 }
 
