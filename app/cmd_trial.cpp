@@ -51,14 +51,6 @@ std::vector<InputObject> LoadUsable(const TrialFlags& flags) {
   return objects;
 }
 
-std::string Constants(const TrialFlags& flags) {
-  return "seed = " + std::to_string(flags.seed) +
-         "\nfriction_angle = " + FormatDouble(flags.friction_angle) + "\nreading = \"" +
-         flags.reading +
-         "\"\n# Not used below: metric.friction, which the friction angle sets, and "
-         "metric.percentile.\n\n";
-}
-
 void TrialByModel(const TrialFlags& flags, const PhysicsTrialOptions& given, MetricOptions metric) {
   TrialOptions options = given.series;
   OptionTable table;
@@ -75,52 +67,10 @@ void TrialByModel(const TrialFlags& flags, const PhysicsTrialOptions& given, Met
   if (!flags.out.empty()) {
     WriteFileAtomic(flags.out, TrialCsv(names, all));
     Bind(&table, &metric);
-    WriteFileAtomic(flags.out + ".trial.toml", Constants(flags) + table.Dump());
+    WriteFileAtomic(flags.out + ".trial.toml",
+                    ModelTrialToml(flags.seed, flags.friction_angle, flags.reading) + table.Dump());
   }
   std::fputs(TrialText(names, all, options.min_epsilon).c_str(), stdout);
-}
-
-// The friction of a trial in physics: --friction, the angle in one or both readings, or the
-// protocol's or the metric's own.
-std::vector<double> Frictions(const TrialFlags& flags, const CLI::App& command,
-                              const MetricOptions& metric) {
-  if (command.count("--friction-angle") + command.count("--reading") == 0) {
-    return {metric.friction};
-  }
-  std::vector<double> frictions;
-  const auto chosen = FindChoice<FrictionReading>(flags.reading);
-  for (const auto [reading, name] : ChoicesOf(FrictionReading{})) {
-    if (!chosen || chosen == reading) {
-      frictions.push_back(FrictionCoefficient(flags.friction_angle, reading));
-    }
-  }
-  return frictions;
-}
-
-// No flag is accepted and then not used: in physics, and by the model.
-void RequireUsed(const Protocol& protocol, TipShape tip, const OptionFlags& trial_flags) {
-  const auto refuse = [&](const std::string& who, const std::vector<std::string>& keys,
-                          const std::string& expected) {
-    for (const std::string& key : keys) {
-      const std::string typed = trial_flags.Typed("trial." + key);
-      if (!typed.empty()) throw InputError(who + " has no such thing", typed, expected);
-    }
-  };
-  const std::string name = "protocol " + ChoiceName(protocol.name);
-  refuse("physics", {"min_epsilon"}, "--engine model");
-  if (protocol.choice == GraspChoice::kBestUnused) {
-    refuse(name, {"draws"}, "--executions");
-  } else {
-    refuse(name, {"series", "grasps_per_series", "executions"}, "--draws, or --protocol paper");
-  }
-  if (!protocol.table) {
-    refuse(name, {"approach_cone", "table_clearance", "table_friction"}, "a protocol with a table");
-  }
-  if (tip == TipShape::kSphere) {
-    refuse("a ball", {"pad_width", "pad_height"}, "--tip pad");
-  } else {
-    refuse("a pad", {"tip_radius", "patch_radius"}, "--tip sphere");
-  }
 }
 
 void RequireNoPhysics(const CLI::App& command, const OptionFlags& trial_flags) {
@@ -163,8 +113,12 @@ void Trial(TrialFlags flags, const CLI::App& command, const OptionFlags& trial_f
     RequireNoPhysics(command, trial_flags);
     return TrialByModel(flags, options, metric);
   }
-  RequireUsed(protocol, options.physics.tip.shape, trial_flags);
-  flags.frictions = Frictions(flags, command, metric);
+  RequireOptionsUsed(protocol, options.physics.tip.shape,
+                     [&](const std::string& key) { return trial_flags.Typed(key); });
+  const bool by_angle = command.count("--friction-angle") + command.count("--reading") > 0;
+  flags.frictions =
+      by_angle ? FrictionsOf(FindChoice<FrictionReading>(flags.reading), flags.friction_angle)
+               : std::vector<double>{metric.friction};
   ConsoleObserver console;
   const PhysicsTrialReport report = TryInPhysics(flags, metric, options, &console);
   for (const std::string& warning : report.warnings) spdlog::warn("{}", warning);

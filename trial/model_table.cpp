@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "antigrasp/core/csv_writer.h"
+#include "antigrasp/core/format.h"
 
 namespace antigrasp {
 namespace {
@@ -73,6 +74,13 @@ std::string TrialCsv(const std::vector<std::string>& objects,
     }
   }
   return csv.text();
+}
+
+std::string ModelTrialToml(std::uint64_t seed, double friction_angle, const std::string& reading) {
+  return "seed = " + std::to_string(seed) + "\nfriction_angle = " + FormatDouble(friction_angle) +
+         "\nreading = \"" + reading +
+         "\"\n# Not used below: metric.friction, which the friction angle sets, and "
+         "metric.percentile.\n\n";
 }
 
 std::string TrialText(const std::vector<std::string>& objects,

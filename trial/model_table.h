@@ -28,6 +28,9 @@ std::vector<TrialReading> RunReadings(const std::vector<InputObject>& objects,
 std::string TrialCsv(const std::vector<std::string>& objects,
                      const std::vector<TrialReading>& readings);
 
+// What stands beside the table before the options: seed, angle and reading, as TOML.
+std::string ModelTrialToml(std::uint64_t seed, double friction_angle, const std::string& reading);
+
 // The same for the eye, in percent of the grasps.
 std::string TrialText(const std::vector<std::string>& objects,
                       const std::vector<TrialReading>& readings, double min_epsilon);

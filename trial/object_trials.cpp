@@ -6,6 +6,7 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
+#include "antigrasp/core/ordered_stream.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/datasets/result_folder.h"
 #include "antigrasp/quality/object_size.h"
@@ -66,22 +67,39 @@ class Call {
   }
 
  private:
+  // One object on one side, tried on any thread.
+  struct Tried {
+    TrialSummary summary;
+    PhysicsTrial trial;
+    std::vector<std::string> replays;
+    std::string note;
+    Eigen::Vector3d extent = Eigen::Vector3d::Zero();  // zero: not loaded
+  };
+
   void AtMass(const std::vector<Side>& sides, const char* masses, double mass) {
     PhysicsTrialOptions options = options_;
     options.mass = mass;
-    PhysicsTrials trials(metric_, options, request_.seed, request_.threads);
+    const auto side_count = std::ssize(sides), count = objects_.size() * side_count;
+    // Objects side by side where there are many, else the grasps of one after another.
+    const int threads = request_.threads > 0 ? request_.threads : HardwareThreads();
+    const bool many = count >= 2 * threads;
     std::vector<std::vector<TrialSummary>> found(sides.size());
-    const ProgressFn progress = observer_.Phase("trials, " + std::string(masses) + " mass");
-    const auto count = objects_.size();
-    for (std::int64_t i = 0; i < count; ++i) {
-      for (std::size_t side = 0; side < sides.size(); ++side) {
-        const TrialRun run = {ChoiceName(options_.protocol), sides[side].name, masses,
-                              metric_.friction};
-        found[side].push_back(TryOne(sides[side], i, run, &trials));
-        results_.trials.Add(run, found[side].back());
-      }
-      progress(i + 1, count);
-    }
+    const auto run_of = [&](std::int64_t i) {
+      const Side& side = sides[static_cast<std::size_t>(i % side_count)];
+      return TrialRun{ChoiceName(options_.protocol), side.name, masses, metric_.friction};
+    };
+    StreamInOrder(
+        count, many ? threads : 1,
+        [&](std::int64_t i) {
+          PhysicsTrials trials(metric_, options, request_.seed, many ? 1 : threads);
+          return TryOne(sides[static_cast<std::size_t>(i % side_count)], i / side_count, run_of(i),
+                        &trials);
+        },
+        [&](std::int64_t i, const Tried& tried) {
+          found[static_cast<std::size_t>(i % side_count)].push_back(tried.summary);
+          Record(run_of(i), tried);
+        },
+        observer_.Phase("trials, " + std::string(masses) + " mass"));
     results_.means.Add({ChoiceName(options_.protocol), "after", masses, metric_.friction},
                        protocol_, found[0],
                        sides.size() > 1 ? found[1] : std::vector<TrialSummary>{});
@@ -96,35 +114,42 @@ class Call {
                     TrialDifference(found[0], found[1], protocol_) + "\n";
   }
 
-  TrialSummary TryOne(const Side& side, std::int64_t i, const TrialRun& run,
-                      PhysicsTrials* trials) {
+  Tried TryOne(const Side& side, std::int64_t i, const TrialRun& run, PhysicsTrials* trials) const {
     const std::string& name = objects_.name(i);
     const InputObject object = side.source.Load(side.places[static_cast<std::size_t>(i)]);
-    if (!object.note.empty()) report_.warnings.push_back(object.name + ": " + object.note);
-    if (!object.ok()) return Refused(name, object.status);
-    sizes_.Add(object.name, Bounds(object.mesh).Extent());
-    const PhysicsTrial trial = trials->Try(object.mesh, objects_.stream(i));
-    TrialSummary summary = SummaryOf(name, trial, protocol_);
-    if (summary.status != "ok") return Refused(name, summary.status, summary);
-    results_.any = true;
-    if (!results_.executions_file) return summary;
-    results_.executions.Add(run, name, trial);
-    results_.executions_file->Append(results_.executions.TakeText());
-    if (run.masses == "equal" && options_.mass == 0.0) return summary;  // one replay is enough
-    for (const auto& [grasp, draw] : WorthAReplay(trial, request_.replays)) {
-      results_.replays.Add(name, run.side, trials, options_.physics.tip, trial, grasp, draw);
+    Tried tried;
+    if (!object.note.empty()) tried.note = object.name + ": " + object.note;
+    tried.summary = NotTried(name, object.status, protocol_);
+    if (!object.ok()) return tried;
+    tried.extent = Bounds(object.mesh).Extent();
+    tried.trial = trials->Try(object.mesh, objects_.stream(i));
+    tried.summary = SummaryOf(name, tried.trial, protocol_);
+    // Of a comparison the replays at own mass are enough.
+    if (!results_.replays_file || (run.masses == "equal" && options_.mass == 0.0)) return tried;
+    for (const auto& [grasp, draw] : WorthAReplay(tried.trial, request_.replays)) {
+      tried.replays.push_back(
+          ReplayText(name, run.side, trials, options_.physics.tip, tried.trial, grasp, draw));
     }
-    results_.replays_file->Append(results_.replays.TakeText());
-    return summary;
+    return tried;
   }
 
-  TrialSummary Refused(const std::string& name, const std::string& status) {
-    return Refused(name, status, NotTried(name, status, protocol_));
-  }
-  TrialSummary Refused(const std::string& name, const std::string& status, TrialSummary summary) {
-    if (results_.first.empty()) results_.first = name + ": " + status;
-    report_.warnings.push_back(name + ": " + status);
-    return summary;
+  void Record(const TrialRun& run, const Tried& tried) {
+    const std::string& name = tried.summary.object;
+    results_.trials.Add(run, tried.summary);
+    if (!tried.note.empty()) report_.warnings.push_back(tried.note);
+    if (!tried.extent.isZero()) sizes_.Add(name, tried.extent);
+    if (tried.summary.status != "ok") {
+      const std::string why = name + ": " + tried.summary.status;
+      if (results_.first.empty()) results_.first = why;
+      report_.warnings.push_back(why);
+      return;
+    }
+    results_.any = true;
+    if (!results_.executions_file) return;
+    results_.executions.Add(run, name, tried.trial);
+    results_.executions_file->Append(results_.executions.TakeText());
+    for (const std::string& replay : tried.replays) results_.replays.Add(replay);
+    results_.replays_file->Append(results_.replays.TakeText());
   }
 
   const PhysicsTrialRequest& request_;

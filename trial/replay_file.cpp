@@ -79,24 +79,22 @@ std::string TipText(const Fingertip& tip) {
 
 }  // namespace
 
-void ReplayFile::Add(const std::string& object, std::string_view side, PhysicsTrials* trials,
-                     const Fingertip& tip, const PhysicsTrial& trial, std::size_t grasp,
-                     std::size_t draw) {
+std::string ReplayText(const std::string& object, std::string_view side, PhysicsTrials* trials,
+                       const Fingertip& tip, const PhysicsTrial& trial, std::size_t grasp,
+                       std::size_t draw) {
   const ExecutedGrasp& executed = trial.grasps[grasp];
   const GripStart start = trials->StartOfDraw(executed, draw);
   std::vector<ReplayFrame> frames;
   const Execution execution = trials->Replay(executed, draw, [&](const ReplayFrame& frame) {
     if (!frame.state.broken && frame.state.body.matrix().allFinite()) frames.push_back(frame);
   });
-  if (frames.size() < 2) return;  // nothing moved
-  std::string text = any_ ? ",\n" : "";
-  any_ = true;
-  text += R"({"object":)" + Quoted(object) + R"(,"side":")" + std::string(side) +
-          R"(","protocol":")" + ChoiceName(trials->protocol().name) + R"(","grasp":)" +
-          std::to_string(grasp) + R"(,"execution":)" + std::to_string(draw) + R"(,"outcome":")" +
-          ChoiceName(execution.outcome) + R"(","friction":)" + Number(start.friction) +
-          R"(,"metres_per_unit":)" + Number(trial.metres_per_unit) + R"(,"tip":)" + TipText(tip) +
-          R"(,"up":)";
+  if (frames.size() < 2) return {};
+  std::string text = R"({"object":)" + Quoted(object) + R"(,"side":")" + std::string(side) +
+                     R"(","protocol":")" + ChoiceName(trials->protocol().name) + R"(","grasp":)" +
+                     std::to_string(grasp) + R"(,"execution":)" + std::to_string(draw) +
+                     R"(,"outcome":")" + ChoiceName(execution.outcome) + R"(","friction":)" +
+                     Number(start.friction) + R"(,"metres_per_unit":)" +
+                     Number(trial.metres_per_unit) + R"(,"tip":)" + TipText(tip) + R"(,"up":)";
   Append({start.up.x(), start.up.y(), start.up.z()}, &text);
   text += ",\"frames\":[\n";
   const double tip_out = 0.5 * start.opening + tip.Half().x();
@@ -105,7 +103,13 @@ void ReplayFile::Add(const std::string& object, std::string_view side, PhysicsTr
     const ReplayFrame& frame = frames[i * (frames.size() - 1) / (count - 1)];
     text += (i == 0 ? "" : ",\n") + FrameText(frame, trials->MeshPose(frame.state.body), tip_out);
   }
-  text_ += text + "]}";
+  return text + "]}";
+}
+
+void ReplayFile::Add(const std::string& replay) {
+  if (replay.empty()) return;
+  text_ += (any_ ? ",\n" : "") + replay;
+  any_ = true;
 }
 
 std::string ReplayFile::TakeText() { return std::exchange(text_, {}); }

@@ -7,12 +7,16 @@
 
 namespace antigrasp {
 
-// replays.json (docs/formats.md): executions to look at.
+// An execution of the object that `trials` tried last, to look at, as JSON (docs/formats.md).
+// `side`: "after" or "before". Empty when nothing moved.
+std::string ReplayText(const std::string& object, std::string_view side, PhysicsTrials* trials,
+                       const Fingertip& tip, const PhysicsTrial& trial, std::size_t grasp,
+                       std::size_t draw);
+
+// replays.json.
 class ReplayFile {
  public:
-  // An execution of the object that `trials` tried last. `side`: "after" or "before".
-  void Add(const std::string& object, std::string_view side, PhysicsTrials* trials,
-           const Fingertip& tip, const PhysicsTrial& trial, std::size_t grasp, std::size_t draw);
+  void Add(const std::string& replay);
   // What the file gets next: the replays that were added since the last call; EndText() ends it.
   // A replay takes about 20 kB, so that those of a large set do not fit into memory.
   std::string TakeText();
