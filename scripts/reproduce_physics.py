@@ -73,20 +73,17 @@ def perturb_rows(out, objects, friction, tip, sets):
             if not (folder / f"trial-{friction}-{tip}" / "means.csv").exists():
                 continue
             rows = rows_of(folder / f"trial-{friction}-{tip}")
-            info = {row["quantity"]: row for row in means(folder / "perturb.csv")}
+            shape = means(folder)[0]
             own, equal = (rows[(masses, "1 g", "all")] for masses in ("own", "equal"))
             lines.append(
-                f"| {kind} | {label} | {text_of(info, 'reduction')} | {text_of(info, 'hausdorff')} | {number(own, 'held_before'):.1f} | "
+                f"| {kind} | {label} | {percent(shape, 'reduction_pct')} | {percent(shape, 'hausdorff_pct')} | {number(own, 'held_before'):.1f} | "
                 f"{change(own)} | {change(equal)} | {change(rows[('equal', '3 g', 'all')])} | {change(rows[('equal', '8 g', 'all')])} | "
                 f"{change(rows[('equal', '1 g', 'top quarter')])} | {change(rows[('equal', '', 'candidates kept')])} |")
     return lines
 
 
-def text_of(info, word):
-    for name, row in info.items():
-        if word in name.lower():
-            return f"{float(row['mean']):.1f}"
-    return "-"
+def percent(row, name):
+    return f"{float(row[name]):.1f}" if row[name] else "-"
 
 
 def samples(out, objects, grasps, kind, which, friction):
