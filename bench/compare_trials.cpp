@@ -37,7 +37,7 @@ double Alike(const std::vector<PhysicsTrial>& a, const std::vector<PhysicsTrial>
 // Executions that end when nothing can change any more, beside phases simulated to their end; one
 // object a call, 100 grasps of it five times, planning included.
 void CompareTrials() {
-  const std::vector<TriangleMesh> meshes = RemeshedCylinders(4);
+  const std::vector<TriangleMesh> meshes = RemeshedCylinders(1);
   std::vector<PhysicsTrial> early, fixed, sink;
   const auto all = [&](int threads, Pace pace, std::vector<PhysicsTrial>* trials) {
     return [&meshes, threads, pace, trials] {
