@@ -115,6 +115,9 @@ void Trial(TrialFlags flags, const CLI::App& command, const OptionFlags& trial_f
   }
   RequireOptionsUsed(protocol, options.physics.tip.shape,
                      [&](const std::string& key) { return trial_flags.Typed(key); });
+  if (command.count("--equal-mass") > 0 && flags.baseline.empty()) {
+    throw InputError("nothing is compared", "--equal-mass", "--baseline, or --mass for all");
+  }
   const bool by_angle = command.count("--friction-angle") + command.count("--reading") > 0;
   flags.frictions =
       by_angle ? FrictionsOf(FindChoice<FrictionReading>(flags.reading), flags.friction_angle)

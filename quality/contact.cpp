@@ -38,4 +38,11 @@ bool Slips(const Eigen::Vector3d& d, const Eigen::Vector3d& u, double friction) 
   return (u - u.dot(d) * d).norm() > friction * normal_part;
 }
 
+bool SameGrasp(const Grasp& a, const Grasp& b, double separation) {
+  const auto near = [&](std::size_t i, std::size_t j) {
+    return (a.contacts[i].point - b.contacts[j].point).norm() < separation;
+  };
+  return (near(0, 0) && near(1, 1)) || (near(0, 1) && near(1, 0));
+}
+
 }  // namespace antigrasp

@@ -24,6 +24,9 @@ struct Grasp {
   Eigen::Vector3d approach = Eigen::Vector3d::Zero();
 };
 
+// Two grasps are one when their contacts coincide, whichever jaw holds which.
+bool SameGrasp(const Grasp& a, const Grasp& b, double separation);
+
 // The friction cone's tangent frame at a contact whose INWARD unit normal is d: t1 is the object's
 // +x axis projected on the tangent plane and normalised, t2 = d x t1. This is the continuum limit
 // of Dex-Net's 1000-step search; where d is parallel to x, its SVD basis vector (docs/metric.md).

@@ -40,14 +40,6 @@ double ScaleToMetres(const TriangleMesh& mesh, const MetricOptions& options) {
   return usable ? scale : 0.0;
 }
 
-// Two grasps are one when their contacts coincide, whichever jaw holds which.
-bool SameGrasp(const Grasp& a, const Grasp& b, double separation) {
-  const auto near = [&](std::size_t i, std::size_t j) {
-    return (a.contacts[i].point - b.contacts[j].point).norm() < separation;
-  };
-  return (near(0, 0) && near(1, 1)) || (near(0, 1) && near(1, 0));
-}
-
 bool IsCopy(const Grasp& grasp, const std::vector<NoisyGrasp>& kept, double separation) {
   return std::any_of(kept.begin(), kept.end(), [&](const NoisyGrasp& other) {
     return SameGrasp(grasp, other.grasp, separation);

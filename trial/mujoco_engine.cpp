@@ -49,8 +49,8 @@ int TouchTip(Scene* scene, int tip, const Isometry3d& to_body, const Vector3d& c
 
 // The collision function of all pairs: table and body, tip and body. The body's geom is a box that
 // stands for its solid; the pose comes from the body.
-int Collide(const mjModel* model, const mjData* data, mjContact* contacts, int geom1, int geom2,
-            mjtNum /*margin*/) {
+int Collide(const mjModel* model, mujoco::CollisionData data, mujoco::CollisionContact* contacts,
+            int geom1, int geom2, mjtNum /*margin*/) {
   if (scene_of_thread == nullptr) return 0;
   Scene& scene = *scene_of_thread;
   const int body = model->geom_bodyid[kBody];
@@ -75,11 +75,8 @@ int Collide(const mjModel* model, const mjData* data, mjContact* contacts, int g
     const SurfaceContact& at = found[static_cast<std::size_t>(i)];
     const Vector3d position = pose * at.position, normal = sign * (pose.linear() * at.normal);
     contacts[i].dist = at.distance + kMargin;
-    for (int k = 0; k < 3; ++k) {
-      contacts[i].pos[k] = position[k];
-      contacts[i].frame[k] = normal[k];
-      contacts[i].frame[3 + k] = 0.0;  // MuJoCo completes the frame
-    }
+    mju_copy3(contacts[i].pos, position.data());
+    mujoco::SetNormal(normal.data(), &contacts[i]);
   }
   return count;
 }

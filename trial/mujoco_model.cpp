@@ -11,7 +11,7 @@ Model Compile(const std::string& mjcf) {
   constexpr const char* kName = "trial.xml";
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
-#if mjVERSION_HEADER >= 300
+#if mjVERSION_HEADER >= 313
   const int failed =
       mj_addBufferVFS(files.get(), kName, mjcf.data(), static_cast<int>(mjcf.size()));
 #else

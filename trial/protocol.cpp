@@ -24,53 +24,33 @@ std::vector<Vector3d> FiveTugs() {
 
 Protocol ProtocolOf(ProtocolName name) {
   const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY();
+  Protocol protocol;
+  protocol.name = name;
   switch (name) {
     case ProtocolName::kSixWays:
-      return {name,
-              true,
-              0.0,
-              0.0,
-              0.0,
-              1.2,
-              0.1,
-              HeldRule::kBothPress,
-              GraspChoice::kAll,
-              {{"1 g", kGravity, SixWays(), 0.1},
-               {"3 g", 3 * kGravity, SixWays(), 0.1},
-               {"8 g", 8 * kGravity, SixWays(), 0.1}}};
+      for (const int g : {1, 3, 8}) {
+        protocol.stages.push_back({std::to_string(g) + " g", g * kGravity, SixWays(), 0.1});
+      }
+      return protocol;
     case ProtocolName::kPaper:
-      return {name,
-              true,
-              0.0,
-              0.0,
-              0.0,
-              1.2,
-              0.1,
-              HeldRule::kBothPress,
-              GraspChoice::kBestUnused,
-              {{"carried", 2.0, {x, -x, y, -y}, 0.2, true}}};
+      protocol.choice = GraspChoice::kBestUnused;
+      protocol.stages = {{"carried", 2.0, {x, -x, y, -y}, 0.2, true}};
+      return protocol;
     case ProtocolName::kGraspDataGen:
-      return {name,
-              false,
-              1.0,
-              1.0,
-              0.0,
-              1.0,
-              0.0,
-              HeldRule::kBothPress,
-              GraspChoice::kAll,
-              {{"five tugs", kGravity, FiveTugs(), 0.5}}};
+      protocol.table = false;
+      protocol.mass = 1.0;
+      protocol.friction = 1.0;
+      protocol.close_seconds = 1.0;
+      protocol.stages = {{"five tugs", kGravity, FiveTugs(), 0.5}};
+      return protocol;
     case ProtocolName::kDexGraspBench:
-      return {name,
-              false,
-              0.1,
-              0.6,
-              0.02,
-              1.2,
-              0.0,
-              HeldRule::kInPlace,
-              GraspChoice::kAll,
-              {{"six runs", 10.0, SixWays(), 2.0, false, true}}};
+      protocol.table = false;
+      protocol.mass = 0.1;
+      protocol.friction = 0.6;
+      protocol.torsion = 0.02;
+      protocol.rule = HeldRule::kInPlace;
+      protocol.stages = {{"six runs", 10.0, SixWays(), 2.0, false, true}};
+      return protocol;
   }
   AG_CHECK(false, "a protocol of the list");
   return {};

@@ -43,16 +43,16 @@ struct LoadStage {
 };
 
 struct Protocol {
-  ProtocolName name;
-  bool table;       // the object rests on one in a stable pose and is lifted off it; else it
-                    // floats, and is braked while the jaws close
-  double mass;      // kg; 0 = the object's own
-  double friction;  // 0 = the metric's
-  double torsion;   // length, m; 0 = the fingertip's
-  double close_seconds;
-  double lift_height;  // m
-  HeldRule rule;
-  GraspChoice choice;
+  ProtocolName name = ProtocolName::kSixWays;
+  bool table = true;      // the object rests on one in a stable pose and is lifted off it; else it
+                          // floats, and is braked while the jaws close
+  double mass = 0.0;      // kg; 0 = the object's own
+  double friction = 0.0;  // 0 = the metric's
+  double torsion = 0.0;   // length, m; 0 = the fingertip's
+  double close_seconds = 1.2;  // at most
+  double lift_height = 0.1;    // m, off the table
+  HeldRule rule = HeldRule::kBothPress;
+  GraspChoice choice = GraspChoice::kAll;
   std::vector<LoadStage> stages;  // the first one decides what "held" means
 };
 

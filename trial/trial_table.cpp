@@ -4,6 +4,7 @@
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/mesh/place.h"
+#include "antigrasp/quality/adaptive_draws.h"
 #include "antigrasp/quality/parallel_jaws.h"
 
 namespace antigrasp {
@@ -16,27 +17,10 @@ TriangleMesh MetresAbout(const Vector3d& place, const TriangleMesh& mesh, double
   return Transformed(Transformed(mesh, 1.0, origin - place), scale, origin);
 }
 
-bool SameGrasp(const Grasp& a, const Grasp& b, double separation) {
-  const auto near = [&](std::size_t i, std::size_t j) {
-    return (a.contacts[i].point - b.contacts[j].point).norm() < separation;
-  };
-  return (near(0, 0) && near(1, 1)) || (near(0, 1) && near(1, 0));
-}
-
 std::vector<NoiseDraw> Draws(const MetricOptions& metric, int count, RngStream* rng) {
   std::vector<NoiseDraw> draws;
   for (int i = 0; i < count; ++i) draws.push_back(DrawNoise(metric, rng));
   return draws;
-}
-
-// Mean quality over the first metric.num_draws of `draws`.
-double RobustQualityOf(const GraspModel& model, const Grasp& grasp,
-                       const std::vector<NoiseDraw>& draws, int count) {
-  double sum = 0.0;
-  for (int i = 0; i < count; ++i) {
-    sum += model.ExecutedQuality(grasp, draws[static_cast<std::size_t>(i)]);
-  }
-  return sum / count;
 }
 
 }  // namespace
@@ -123,10 +107,10 @@ TrialPlan TrialTable::Sample(std::uint64_t seed, std::uint64_t object, int execu
       grasp->approach = *approach;
     }
     RngStream noise(seed, "noise", object, candidate);
-    std::vector<NoiseDraw> draws = Draws(metric_, std::max(executions, metric_.num_draws), &noise);
-    const double quality = RobustQualityOf(*model, *grasp, draws, metric_.num_draws);
-    draws.resize(static_cast<std::size_t>(executions));
-    plan.grasps.push_back({*grasp, pose, quality, std::move(draws)});
+    std::vector<NoisyGrasp> scored = {{*grasp, noise}};  // with a stream of its own
+    DrawAll(*model, metric_, &scored);
+    plan.grasps.push_back(
+        {*grasp, pose, scored.front().Mean(), Draws(metric_, executions, &noise)});
   }
   return plan;
 }

@@ -180,6 +180,7 @@ TEST_F(TrialPhysicsCli, WhatCannotBeIsRefusedInOneLine) {
   ExpectRefused(cube + "--friction -0.1", "--friction");
   ExpectRefused(cube + "--mass -1", "--mass");
   ExpectRefused(cube + "--equal-mass 0", "--equal-mass");
+  ExpectRefused(cube + "--equal-mass 0.1", "nothing is compared (--equal-mass)");
   ExpectRefused(cube + "--time-step 0.1", "--time-step");
   ExpectRefused(cube + "--friction 0.3 --friction-angle 20", "excludes");
   ExpectRefused(cube + "--min-epsilon 0.1", "--engine model");
