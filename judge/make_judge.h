@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "antigrasp/judge/program_judge.h"
+#include "antigrasp/quality/judge.h"
+#include "antigrasp/trial/physics_trial.h"
+
+namespace antigrasp {
+
+// Objects that are compared are tried at one mass, 50 g: lighter is no harder.
+PhysicsTrialOptions AtEqualMass();
+
+struct JudgeOptions {
+  MetricOptions metric;
+  PhysicsTrialOptions trial = AtEqualMass();  // of the judge `trial`; not its protocol
+  ProgramLimits program;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  std::function<void()> tick;  // called now and then during a batch; may throw (Interrupted)
+};
+
+// Who judges, by name:
+//   epsilon         graspability, today's metric (EvaluateGraspability)
+//   trial           share of executions held, 0 to 1, by the protocol six-ways (PhysicsTrials)
+//   trial:PROTOCOL  by another one, with the friction and mass that it lays down
+//   anything else   a program (ProgramJudge)
+// InputError for trial:NAME of a protocol that does not exist and without MuJoCo.
+std::unique_ptr<Judge> MakeJudge(const std::string& name, const JudgeOptions& options);
+
+// "epsilon, trial, trial:PROTOCOL or a program": for help and messages.
+inline constexpr const char* kJudges = "epsilon, trial, trial:PROTOCOL or a program";
+
+}  // namespace antigrasp
