@@ -174,7 +174,7 @@ class ProgramJudge::Batch {
       return;
     }
     const auto one = std::find_if(waiting_.begin(), waiting_.end(),
-                                  [&](const Waiting& other) { return other.id <= answer->id; });
+                                  [&](const Waiting& other) { return other.id == answer->id; });
     if (one == waiting_.end()) {
       ++talk_.strays;
       return;
@@ -197,7 +197,7 @@ class ProgramJudge::Batch {
       throw InputError("no command " + judge_.command_, "--judge",
                        "epsilon, trial, trial:PROTOCOL or a program");
     }
-    if (++waiting_.front().deaths > 0) Decide(waiting_.begin(), Verdict::None("judge died"));
+    if (++waiting_.front().deaths > 1) Decide(waiting_.begin(), Verdict::None("judge died"));
     Restart("ended with exit code " + std::to_string(code));
   }
 
