@@ -6,24 +6,28 @@
 #include <optional>
 
 #include "antigrasp/app/commands.h"
+#include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
-#include "antigrasp/app/score_objects.h"
+#include "antigrasp/app/trial_flags.h"
 #include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/judge/given_objects.h"
+#include "antigrasp/judge/make_judge.h"
+#include "antigrasp/judge/score_objects.h"
 #include "antigrasp/quality/grasp_table.h"
 #include "antigrasp/quality/sampling_effort.h"
 
 namespace antigrasp {
 namespace {
 
-struct EvaluateFlags {
-  std::vector<std::string> inputs;
+struct EvaluateFlags : GivenRequest {  // whose grasps are those of --grasps-in
   std::vector<std::string> baseline;
-  std::string out;
-  std::string grasps;
+  std::string grasps_out;
   GraspFrame frame = GraspFrame::kMetres;
+  ProtocolName protocol = ProtocolName::kSixWays;
+  std::string judge;
+  ProgramLimits limits;
   int hardest = 0;  // 0: all objects
-  std::uint64_t seed = 1;
-  int threads = 0;
 };
 
 std::string MetricPath(const EvaluateFlags& flags) {
@@ -67,7 +71,7 @@ void EvaluateAll(const EvaluateFlags& flags, const ObjectSource& objects, const 
     original_of = PairWithOriginals(objects, *originals);
   }
   std::optional<AtomicFile> grasps_file;
-  if (!flags.grasps.empty()) grasps_file.emplace(flags.grasps);
+  if (!flags.grasps_out.empty()) grasps_file.emplace(flags.grasps_out);
   GraspTable grasps(flags.frame);
   ScoreTable table;
   const ScoredSet scores =
@@ -83,26 +87,85 @@ void EvaluateAll(const EvaluateFlags& flags, const ObjectSource& objects, const 
   WriteScores(flags, scoring.metric, table.Csv());
   PrintLines(scores.Summary(scoring.effort_given));
   if (originals) PrintLines({scores.PairedDifference()});
+  // What it scored is written; the rest has the status.
+  const std::string stopped = scoring.judge != nullptr ? scoring.judge->Stopped() : "";
+  if (!stopped.empty()) throw RuntimeFailure("the judge stopped: " + stopped);
 }
 
-void Evaluate(const EvaluateFlags& flags, const MetricFlags& metric_flags) {
-  Scoring scoring{metric_flags.Resolve(), metric_flags.effort_given(),
-                  metric_flags.preset() == "egad", flags.seed, flags.threads};
-  for (const std::string& out : {flags.out, flags.grasps}) {
+void EvaluateGrasps(const EvaluateFlags& flags, const CLI::App& command,
+                    const OptionFlags& trial_flags, const MetricOptions& metric) {
+  const std::vector<std::filesystem::path> written = {
+      flags.out, MetricPath(flags), flags.out.empty() ? "" : flags.out + ".trial.toml"};
+  ObjectSource(flags.inputs).RequireNotRead(written);
+  RequireNotRead(flags.grasps, written);
+  const Protocol protocol = ProtocolOf(flags.protocol);
+  MetricOptions of_trial = metric;
+  const PhysicsTrialOptions trial = TrialOptionsOf(protocol, command, trial_flags, &of_trial);
+  if (flags.in_physics) {
+    RequireOptionsUsed(
+        protocol, trial.physics.tip.shape,
+        [&](const std::string& key) { return trial_flags.Typed(key); }, true);
+  }
+  ConsoleObserver console;
+  const GivenReport report = ScoreGiven(flags, metric, of_trial, trial, &console);
+  std::fputs(report.table.c_str(), stdout);
+  for (const std::string& warning : report.warnings) Warn(warning);
+  PrintLines(report.summary);
+}
+
+void Evaluate(const EvaluateFlags& flags, const CLI::App& command, const OptionFlags& trial_flags,
+              const MetricFlags& metric_flags) {
+  if (trial_flags.given() && !flags.in_physics) {
+    throw InputError("options of a trial", "command line", "--trial PROTOCOL beside them");
+  }
+  for (const std::string& out : {flags.out, flags.grasps_out}) {
     if (!out.empty()) const AtomicFile probe(out);  // refuses an unwritable target before the work
   }
-  const std::vector<std::filesystem::path> written = {flags.out, MetricPath(flags), flags.grasps};
+  ConsoleObserver console;
+  Scoring scoring{metric_flags.Resolve(), metric_flags.effort_given(),
+                  metric_flags.preset() == "egad", flags.seed, flags.threads};
+  scoring.observer = &console;
+  scoring.warn = &Warn;
+  if (!flags.grasps.empty()) return EvaluateGrasps(flags, command, trial_flags, scoring.metric);
+  const std::vector<std::filesystem::path> written = {flags.out, MetricPath(flags),
+                                                      flags.grasps_out};
   RequireApart(written);
   const ObjectSource objects(flags.inputs);
   objects.RequireNotRead(written);
   RequireNotRead(metric_flags.gripper(), written);
   if (!flags.baseline.empty()) ObjectSource(flags.baseline).RequireNotRead(written);
   metric_flags.RaiseEffort(objects.size(), &scoring.metric);
+  std::unique_ptr<Judge> judge;
+  if (!flags.judge.empty()) {
+    judge = MakeJudge(flags.judge, {scoring.metric, AtEqualMass(), flags.limits, flags.seed,
+                                    flags.threads, &ThrowIfInterrupted});
+    scoring.judge = judge.get();
+  }
   if (flags.hardest > 0) {
     EvaluateHardest(flags, objects, scoring);
   } else {
     EvaluateAll(flags, objects, scoring);
   }
+}
+
+void AddJudgeFlags(CLI::App* command, EvaluateFlags* flags) {
+  CLI::Option* judge =
+      command->add_option("--judge", flags->judge,
+                          std::string("who scores every object, too: ") + kJudges +
+                              " (docs/judges.md); columns judge and judge_status of the scores");
+  judge->excludes("--hardest");
+  command
+      ->add_option("--judge-limit", flags->limits.seconds,
+                   "of a program: seconds without an answer, then an object is late")
+      ->check(NumberIn(0.01, 1e6))
+      ->capture_default_str()
+      ->needs(judge);
+  command
+      ->add_option("--judge-restarts", flags->limits.restarts,
+                   "how often a program that dies or hangs is started again")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str()
+      ->needs(judge);
 }
 
 }  // namespace
@@ -114,7 +177,8 @@ void AddEvaluateCommand(CLI::App* app) {
   command->add_option("--out", flags->out,
                       "scores (CSV); the constants go to the same name plus .metric.toml. "
                       "Without it the scores go to standard output");
-  CLI::Option* grasps = command->add_option("--grasps", flags->grasps, "every sampled grasp (CSV)");
+  CLI::Option* grasps =
+      command->add_option("--grasps", flags->grasps_out, "every sampled grasp (CSV)");
   AddChoice(
       command, "--frame", &flags->frame,
       "of --grasps: metres, as the metric rescales the object, or mesh, the unit and frame of "
@@ -127,11 +191,27 @@ void AddEvaluateCommand(CLI::App* app) {
                  "write only the N objects with the lowest graspability, scored again with fresh "
                  "draws: the lowest of many noisy scores is too low")
       ->excludes("--baseline", "--grasps");
+  CLI::Option* given = command->add_option(
+      "--grasps-in", flags->grasps,
+      "score these grasps, not sampled ones (CSV): center_x ... axis_z, "
+      "approach_* and width if there are such columns, in the unit and frame of "
+      "the mesh; or what --grasps wrote (docs/grasps.md)");
+  for (const char* other : {"--grasps", "--baseline", "--hardest"}) given->excludes(other);
+  AddChoice(command, "--trial", &flags->protocol,
+            "execute each of them in physics, by this protocol of antigrasp trial");
+  command->get_option("--trial")->needs(given);
+  AddJudgeFlags(command, flags.get());
+  command->get_option("--judge")->excludes(given);
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
   AddThreads(command, &flags->threads, "; scores do not depend on it");
+  const auto trial =
+      std::make_shared<OptionFlags>(AddOptions<PhysicsTrialOptions>(command, "Trial"));
   const auto metric = std::make_shared<MetricFlags>(command);
   command->footer(EffortRule());
-  command->callback([flags, metric] { Evaluate(*flags, *metric); });
+  command->callback([flags, command, trial, metric] {
+    flags->in_physics = command->count("--trial") > 0;
+    Evaluate(*flags, *command, *trial, *metric);
+  });
 }
 
 }  // namespace antigrasp

@@ -8,13 +8,13 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
-#include "antigrasp/app/score_objects.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/ordered_stream.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/datasets/result_folder.h"
 #include "antigrasp/export/print_place.h"
+#include "antigrasp/judge/score_objects.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/mesh_format.h"
 #include "antigrasp/quality/object_size.h"
@@ -67,8 +67,11 @@ std::vector<std::int64_t> ChooseHardest(const ObjectSource& objects, const Expor
 
 void Export(const ExportFlags& flags, const PrintOptions& options,
             const MetricFlags& metric_flags) {
+  ConsoleObserver console;
   Scoring scoring{metric_flags.Resolve(), metric_flags.effort_given(),
                   metric_flags.preset() == "egad", flags.seed, flags.threads};
+  scoring.observer = &console;
+  scoring.warn = &Warn;
   if (flags.true_size) {
     scoring.metric.object_min_extent = 0.0;
     scoring.metric.units = flags.units;
@@ -88,7 +91,6 @@ void Export(const ExportFlags& flags, const PrintOptions& options,
   as_it_is.object_min_extent = 0.0;
   as_it_is.units = flags.units;
   UnlikelySizes sizes(as_it_is);
-  ConsoleObserver console;
   StreamInOrder(
       std::ssize(places), flags.threads,
       [&](std::int64_t i) {

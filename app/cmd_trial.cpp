@@ -10,6 +10,7 @@
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
 #include "antigrasp/app/object_notes.h"
+#include "antigrasp/app/trial_flags.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
@@ -98,13 +99,8 @@ void RequireNoPhysics(const CLI::App& command, const OptionFlags& trial_flags) {
 void Trial(TrialFlags flags, const CLI::App& command, const OptionFlags& trial_flags,
            const MetricFlags& metric_flags) {
   const Protocol protocol = ProtocolOf(flags.protocol);
-  PhysicsTrialOptions options;
-  MetricOptions metric = metric_flags.Resolve(), of_protocol = metric;
-  ApplyProtocol(protocol, &of_protocol, &options);
-  if (command.count("--friction") == 0) metric.friction = of_protocol.friction;
-  OptionTable table;
-  Bind(&table, &options);
-  trial_flags.Apply(&table);
+  MetricOptions metric = metric_flags.Resolve();
+  const PhysicsTrialOptions options = TrialOptionsOf(protocol, command, trial_flags, &metric);
   if (flags.millimetres) {
     metric.object_min_extent = 0.0;
     metric.units = LengthUnit::kMm;

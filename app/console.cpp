@@ -74,7 +74,7 @@ ProgressFn ConsoleObserver::Phase(const std::string& label) {
   bar_->label = label;
   return [bar = bar_](std::int64_t done, std::int64_t total) {
     bar->Report(done, total);
-    if (InterruptRequested()) throw Interrupted();
+    ThrowIfInterrupted();
   };
 }
 
@@ -86,5 +86,11 @@ void ConsoleObserver::Note(const std::string& text) {
 }
 
 bool ConsoleObserver::StopRequested() const { return InterruptRequested(); }
+
+void ThrowIfInterrupted() {
+  if (InterruptRequested()) throw Interrupted();
+}
+
+void Warn(const std::string& text) { spdlog::warn("{}", text); }
 
 }  // namespace antigrasp

@@ -28,4 +28,9 @@ class ConsoleObserver : public RunObserver {
   std::shared_ptr<Bar> bar_;
 };
 
+void ThrowIfInterrupted();
+
+// A warning in the log.
+void Warn(const std::string& text);
+
 }  // namespace antigrasp

@@ -46,6 +46,12 @@ std::shared_ptr<std::string> AddGripperFlag(CLI::App* command, const std::string
   return name;
 }
 
+CLI::Option* AddHardestFlag(CLI::App* command, int* count, const std::string& help) {
+  return command->add_option("--hardest", *count, help)
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000));
+}
+
 CLI::Validator NumberIn(double low, double high) {
   const std::string range = "[" + FormatDouble(low) + " - " + FormatDouble(high) + "]";
   return {[low, high, range](const std::string& text) {

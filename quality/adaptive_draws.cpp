@@ -66,4 +66,12 @@ void DrawAdaptively(const GraspModel& model, const MetricOptions& options,
   }
 }
 
+void Draw(const GraspModel& model, const MetricOptions& options, std::vector<NoisyGrasp>* grasps) {
+  if (options.adaptive) {
+    DrawAdaptively(model, options, grasps);
+  } else {
+    DrawAll(model, options, grasps);
+  }
+}
+
 }  // namespace antigrasp

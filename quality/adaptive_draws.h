@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "antigrasp/quality/grasp_model.h"
@@ -10,6 +11,7 @@ namespace antigrasp {
 struct NoisyGrasp {
   Grasp grasp;
   RngStream noise;
+  std::uint64_t candidate = 0;  // which of those tried: the number of the stream
   int draws = 0;
   double sum = 0.0;
   double sum_of_squares = 0.0;
@@ -28,5 +30,8 @@ void DrawAll(const GraspModel& model, const MetricOptions& options,
 // that enters the percentile. The mean over grasps is rougher than with DrawAll.
 void DrawAdaptively(const GraspModel& model, const MetricOptions& options,
                     std::vector<NoisyGrasp>* grasps);
+
+// As options.adaptive says.
+void Draw(const GraspModel& model, const MetricOptions& options, std::vector<NoisyGrasp>* grasps);
 
 }  // namespace antigrasp

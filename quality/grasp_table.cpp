@@ -37,7 +37,9 @@ GraspTable::GraspTable(GraspFrame frame)
             "in2x",
             "in2y",
             "in2z",
-            "metres_per_unit"}) {}
+            "metres_per_unit",
+            "candidate",
+            "frame"}) {}
 
 void GraspTable::Add(const std::string& object, const Graspability& score,
                      const Eigen::Vector3d& center_of_mass) {
@@ -46,7 +48,7 @@ void GraspTable::Add(const std::string& object, const Graspability& score,
   const double divisor = mesh ? score.scale : 1.0;
   const Eigen::Vector3d com = mesh ? center_of_mass : score.scale * center_of_mass;
   for (std::size_t g = 0; g < score.grasps.size(); ++g) {
-    const auto& [grasp, quality, draws] = score.grasps[g];
+    const auto& [grasp, quality, draws, candidate] = score.grasps[g];
     csv_.Text(object).Count(std::int64_t(g));
     for (const Contact& contact : grasp.contacts) {
       add(contact.point / divisor);
@@ -58,8 +60,8 @@ void GraspTable::Add(const std::string& object, const Graspability& score,
     add(com);
     add(grasp.axis);  // the two jaws' closing directions, as `quality` reads them
     add(-grasp.axis);
-    csv_.Number(score.scale);
-    csv_.EndRow();
+    csv_.Number(score.scale).Count(static_cast<std::int64_t>(candidate));
+    csv_.Text(ChoiceName(frame_)).EndRow();
   }
 }
 

@@ -2,43 +2,18 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
+#include <optional>
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/core/statistics.h"
-#include "antigrasp/mesh/place.h"
 #include "antigrasp/mesh/ray_scene.h"
 #include "antigrasp/quality/adaptive_draws.h"
-#include "antigrasp/quality/object_size.h"
+#include "antigrasp/quality/local_object.h"
 #include "antigrasp/quality/parallel_jaws.h"
 
 namespace antigrasp {
 namespace {
-
-bool IndicesInRange(const TriangleMesh& mesh) {
-  const auto count = static_cast<std::int64_t>(mesh.vertices.size());
-  return std::all_of(mesh.faces.begin(), mesh.faces.end(), [count](const auto& face) {
-    return std::all_of(face.begin(), face.end(),
-                       [count](std::int32_t v) { return v >= 0 && v < count; });
-  });
-}
-
-bool Finite(const TriangleMesh& mesh) {
-  return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
-                     [](const Eigen::Vector3d& v) { return v.allFinite(); });
-}
-
-// Metres per unit of the mesh; 0 when it has no usable size.
-double ScaleToMetres(const TriangleMesh& mesh, const MetricOptions& options) {
-  if (mesh.faces.empty() || !IndicesInRange(mesh) || !Finite(mesh)) return 0.0;
-  const Eigen::Vector3d extent = Bounds(mesh).Extent();
-  const double smallest = extent.minCoeff();
-  const double scale = MetresPerUnit(options, extent);
-  // The ray tree holds floats: sizes beyond their range cannot be evaluated.
-  const bool usable = smallest > 0.0 && std::isfinite(scale) && extent.maxCoeff() * scale < 1e18;
-  return usable ? scale : 0.0;
-}
 
 bool IsCopy(const Grasp& grasp, const std::vector<NoisyGrasp>& kept, double separation) {
   return std::any_of(kept.begin(), kept.end(), [&](const NoisyGrasp& other) {
@@ -62,7 +37,7 @@ std::vector<NoisyGrasp> SampleGrasps(const GraspModel& model, const MetricOption
     if (grasp && IsCopy(*grasp, kept, options.grasp_separation)) {
       ++result->rejected.copies;
     } else if (grasp && model.Reach(&*grasp, &why)) {
-      kept.push_back({*grasp, RngStream(seed, "noise", object, candidate)});
+      kept.push_back({*grasp, RngStream(seed, "noise", object, candidate), candidate});
     } else {
       ++result->rejected.reasons.at(why).count;
     }
@@ -77,13 +52,9 @@ void SampleAndScore(const TriangleMesh& mesh, const MakeGraspModel& make,
   const auto model = make({mesh, scene, CenterOfMass(mesh)}, options);
   if (model == nullptr) return;
   std::vector<NoisyGrasp> grasps = SampleGrasps(*model, options, seed, object, result);
-  if (options.adaptive) {
-    DrawAdaptively(*model, options, &grasps);
-  } else {
-    DrawAll(*model, options, &grasps);
-  }
+  Draw(*model, options, &grasps);
   for (const NoisyGrasp& noisy : grasps) {
-    result->grasps.push_back({noisy.grasp, noisy.Mean(), noisy.draws});
+    result->grasps.push_back({noisy.grasp, noisy.Mean(), noisy.draws, noisy.candidate});
   }
 }
 
@@ -119,16 +90,14 @@ Graspability NotEvaluable() {
 
 Graspability Evaluate(const TriangleMesh& mesh, const MakeGraspModel& make,
                       const MetricOptions& options, std::uint64_t seed, std::uint64_t object) {
-  const double scale = ScaleToMetres(mesh, options);
-  if (!(scale > 0.0)) return NotEvaluable();
+  const std::optional<LocalObject> local = MakeLocalObject(mesh, options);
+  if (!local) return NotEvaluable();
   Graspability result;
-  result.scale = scale;
-  // Far from the origin the last digits of contacts and normals would depend on the place.
-  const Eigen::Vector3d place = RoundPlace(mesh), origin = Eigen::Vector3d::Zero();
-  const TriangleMesh local = Transformed(mesh, 1.0, origin - place);  // exact, before it is scaled
-  SampleAndScore(Transformed(local, scale, origin), make, options, seed, object, &result);
-  if (place != origin) {
-    for (ScoredGrasp& scored : result.grasps) Move(scale * place, &scored.grasp);
+  result.scale = local->scale;
+  SampleAndScore(local->mesh, make, options, seed, object, &result);
+  if (!local->place.isZero(0.0)) {
+    const Eigen::Vector3d by = local->scale * local->place;
+    for (ScoredGrasp& scored : result.grasps) Move(by, &scored.grasp);
   }
   if (result.grasps.empty()) {
     result.status = GraspabilityStatus::kNoGrasps;

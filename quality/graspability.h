@@ -16,9 +16,10 @@
 namespace antigrasp {
 
 struct ScoredGrasp {
-  Grasp grasp;           // object frame after rescaling, metres
-  double quality = 0.0;  // robust quality: mean over the draws (paper III-B: of epsilon)
-  int draws = 0;         // num_draws, or fewer when adaptive
+  Grasp grasp;                  // object frame after rescaling, metres
+  double quality = 0.0;         // robust quality: mean over the draws (paper III-B: of epsilon)
+  int draws = 0;                // num_draws, or fewer when adaptive
+  std::uint64_t candidate = 0;  // which of those tried: the number of its draws
 };
 
 enum class GraspabilityStatus {

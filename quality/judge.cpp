@@ -1,6 +1,5 @@
 #include "antigrasp/quality/judge.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace antigrasp {
@@ -12,21 +11,14 @@ Verdict Verdict::Of(double score) {
 void VerdictCount::Add(const Verdict& verdict) {
   if (verdict.score) {
     ++scored_;
-    return;
-  }
-  const auto known = std::find_if(without_.begin(), without_.end(),
-                                  [&](const auto& one) { return one.first == verdict.status; });
-  if (known != without_.end()) {
-    ++known->second;
   } else {
-    without_.emplace_back(verdict.status, 1);
+    without_.Add(verdict.status);
   }
 }
 
 std::string VerdictCount::Text() const {
-  std::string text = std::to_string(scored_) + " scored";
-  for (const auto& [status, count] : without_) text += ", " + std::to_string(count) + " " + status;
-  return text;
+  const std::string without = without_.Text();
+  return std::to_string(scored_) + " scored" + (without.empty() ? "" : ", ") + without;
 }
 
 }  // namespace antigrasp

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "antigrasp/core/word_count.h"
 #include "antigrasp/mesh/triangle_mesh.h"
 
 // Whoever scores objects: the metric, a trial in physics, a program of somebody else. What scores
@@ -56,7 +56,7 @@ class VerdictCount {
 
  private:
   int scored_ = 0;
-  std::vector<std::pair<std::string, int>> without_;  // in the order in which they came up
+  WordCount without_;
 };
 
 }  // namespace antigrasp

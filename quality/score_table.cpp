@@ -12,6 +12,7 @@ std::vector<std::string> Columns(const ScoreRow& row) {
   std::vector<std::string> columns = {"object", "status",  "num_grasps", "graspability",
                                       "ci_low", "ci_high", "mean",       "fraction_nonzero"};
   for (const auto& [name, value] : row.extras) columns.push_back(name);
+  for (const auto& [name, text] : row.texts) columns.push_back(name);
   return columns;
 }
 
@@ -30,6 +31,7 @@ void ScoreTable::Add(const ScoreRow& row) {
   csv_->Text(row.object).Text(row.status).Count(s.num_grasps);
   csv_->NumbersOrGaps({s.graspability, s.ci_low, s.ci_high, s.mean, s.fraction_nonzero});
   for (const auto& [name, value] : row.extras) csv_->NumberOrGap(value);
+  for (const auto& [name, text] : row.texts) csv_->Text(text);
   csv_->EndRow();
 }
 

@@ -44,6 +44,7 @@ struct ScoreRow {
   // Columns beyond those of a run (kScoreExtras), the same ones in every row of a table; NaN is
   // a gap.
   std::vector<std::pair<std::string, double>> extras = {};
+  std::vector<std::pair<std::string, std::string>> texts = {};  // behind them; not read
 };
 
 // scores.csv row by row, for sets of any size.

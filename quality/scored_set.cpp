@@ -69,11 +69,13 @@ std::vector<std::string> ScoredSet::Summary(bool effort_given) const {
   if (!no_grasps_.empty()) {
     lines.push_back("no grasp, graspability 0 (status no_grasps): " + FirstNames(no_grasps_));
   }
-  if (with_grasps_.empty()) return lines;
-  const MeanInterval mean = MeanWithInterval(with_grasps_);
-  std::string known = KnownText(mean.mean, mean.count > 1, metric_);
-  if (!no_grasps_.empty() && !known_.empty()) known += "; of those with a grasp";
-  lines.push_back(known);
+  if (!with_grasps_.empty()) {
+    const MeanInterval mean = MeanWithInterval(with_grasps_);
+    std::string known = KnownText(mean.mean, mean.count > 1, metric_);
+    if (!no_grasps_.empty() && !known_.empty()) known += "; of those with a grasp";
+    lines.push_back(known);
+  }
+  lines.insert(lines.end(), lines_.begin(), lines_.end());
   return lines;
 }
 

@@ -26,6 +26,9 @@ class ScoredSet {
   // A sentence of which somebody is to be warned, in the order added.
   void AddNote(std::string note) { notes_.push_back(std::move(note)); }
 
+  // A line for the end of the summary.
+  void AddLine(std::string line) { lines_.push_back(std::move(line)); }
+
   // InputError, naming the first object's status, when none has a score.
   void RequireAScore(const std::string& where) const;
   std::vector<std::string> Warnings() const;  // notes and what UnlikelySizes finds
@@ -43,7 +46,7 @@ class ScoredSet {
   std::vector<double> values_, originals_;  // graspabilities, NaN where there is none
   std::vector<double> with_grasps_;         // those of values_ that are not 0 for want of a grasp
   std::vector<std::string> no_grasps_;
-  std::vector<std::string> notes_;
+  std::vector<std::string> notes_, lines_;
   CandidateCount candidates_;
   UnlikelySizes sizes_;
   // Of an only object, and of an only pair: what its grasps say about how sure its numbers are.

@@ -40,6 +40,14 @@ struct TableReach::Impl {
   std::optional<GripperCollision> collision;
 
   // The plane of the table is up . x = level.
+  // Height of the table along `up`.
+  double Level(const Vector3d& up, const StablePose& pose) const {
+    return up.dot(com) - pose.com_height;
+  }
+  bool IsSteep(const Vector3d& approach, const Vector3d& up) const {
+    const double least_cosine = std::cos(table.approach_cone * std::numbers::pi / 180.0);
+    return -approach.dot(up) >= least_cosine - kNoWayIn;
+  }
   bool IsFree(const Grasp& grasp, const Vector3d& approach, const Vector3d& up,
               double level) const {
     if (!collision) return true;
@@ -67,20 +75,25 @@ TableReach& TableReach::operator=(TableReach&&) noexcept = default;
 
 std::optional<Vector3d> TableReach::Approach(const Grasp& grasp, const StablePose& pose) const {
   const Vector3d up = pose.table_from_object.row(2);
-  const double level = up.dot(impl_->com) - pose.com_height;
+  const double level = impl_->Level(up, pose);
   const Vector3d across = up.dot(grasp.axis) * grasp.axis - up;
   if (across.norm() < kNoWayIn) return std::nullopt;
   const Vector3d steepest = across.normalized();
   const Vector3d aside = steepest.cross(grasp.axis);
-  const double least_cosine = std::cos(impl_->table.approach_cone * std::numbers::pi / 180.0);
   for (int i = 0; i < impl_->gripper.approach_angles; ++i) {
     const int step = i % 2 == 1 ? (i + 1) / 2 : -i / 2;
     const double angle = 2.0 * std::numbers::pi * step / impl_->gripper.approach_angles;
     const Vector3d approach = std::cos(angle) * steepest + std::sin(angle) * aside;
-    if (-approach.dot(up) < least_cosine - kNoWayIn) break;  // the next ones are flatter still
+    if (!impl_->IsSteep(approach, up)) break;  // the next ones are flatter still
     if (impl_->IsFree(grasp, approach, up, level)) return approach;
   }
   return std::nullopt;
+}
+
+bool TableReach::Reaches(const Grasp& grasp, const StablePose& pose) const {
+  const Vector3d up = pose.table_from_object.row(2);
+  return impl_->IsSteep(grasp.approach, up) &&
+         impl_->IsFree(grasp, grasp.approach, up, impl_->Level(up, pose));
 }
 
 }  // namespace antigrasp

@@ -37,6 +37,9 @@ class TableReach {
   // is none. Const and thread-safe.
   std::optional<Eigen::Vector3d> Approach(const Grasp& grasp, const StablePose& pose) const;
 
+  // The same question for the grasp's own approach (unit, orthogonal to its axis).
+  bool Reaches(const Grasp& grasp, const StablePose& pose) const;
+
  private:
   struct Impl;
   std::unique_ptr<const Impl> impl_;

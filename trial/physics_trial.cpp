@@ -167,21 +167,45 @@ void Plan(const TrialTable& table, const Protocol& protocol, const PhysicsTrialO
 
 }  // namespace
 
+bool PhysicsTrials::Place(const TriangleMesh& mesh, PhysicsTrial* trial) {
+  table_ = MakeTrialTable(mesh, metric_, options_.series.table, !protocol_.table);
+  if (table_ == nullptr) return false;
+  body_ = std::make_unique<const GrippedBody>(MakeGrippedBody(table_->mesh()));
+  trial->tried = true;
+  trial->metres_per_unit = table_->scale();
+  trial->mass = engines_->mass =
+      options_.mass > 0.0 ? options_.mass : options_.density * body_->volume;
+  trial->poses = static_cast<int>(table_->poses().size());
+  return true;
+}
+
 PhysicsTrial PhysicsTrials::Try(const TriangleMesh& mesh, std::uint64_t stream) {
   PhysicsTrial trial;
-  table_ = MakeTrialTable(mesh, metric_, options_.series.table, !protocol_.table);
-  if (table_ == nullptr) return trial;
-  body_ = std::make_unique<const GrippedBody>(MakeGrippedBody(table_->mesh()));
-  trial.tried = true;
-  trial.metres_per_unit = table_->scale();
-  trial.mass = engines_->mass =
-      options_.mass > 0.0 ? options_.mass : options_.density * body_->volume;
-  trial.poses = static_cast<int>(table_->poses().size());
+  if (!Place(mesh, &trial)) return trial;
   Plan(*table_, protocol_, options_, seed_, stream, threads_, &trial);
+  ExecuteAll(&trial);
+  return trial;
+}
+
+PhysicsTrial PhysicsTrials::Try(const TriangleMesh& mesh, std::uint64_t stream,
+                                const std::vector<ProposedGrasp>& grasps) {
+  PhysicsTrial trial;
+  if (!Place(mesh, &trial)) return trial;
+  const int executions =
+      protocol_.choice == GraspChoice::kBestUnused ? options_.series.executions : options_.draws;
+  TrialPlan plan = table_->Proposed(grasps, seed_, stream, executions, !protocol_.table);
+  trial.wanted = plan.wanted;
+  trial.candidates = plan.candidates;
+  for (TrialGrasp& grasp : plan.grasps) trial.grasps.push_back({std::move(grasp), 0, {}});
+  ExecuteAll(&trial);
+  return trial;
+}
+
+void PhysicsTrials::ExecuteAll(PhysicsTrial* trial) {
   const auto model = ParallelJaws({table_->mesh(), table_->scene(), table_->com()}, metric_);
   ++engines_->object;
-  ParallelFor(std::ssize(trial.grasps), threads_, [&](std::int64_t i) {
-    ExecutedGrasp& grasp = trial.grasps[static_cast<std::size_t>(i)];
+  ParallelFor(std::ssize(trial->grasps), threads_, [&](std::int64_t i) {
+    ExecutedGrasp& grasp = trial->grasps[static_cast<std::size_t>(i)];
     Pool::Seat seat = engines_->Take(*body_);
     for (const NoiseDraw& noise : grasp.planned.draws) {
       grasp.draws.push_back(
@@ -191,7 +215,6 @@ PhysicsTrial PhysicsTrials::Try(const TriangleMesh& mesh, std::uint64_t stream) 
     }
     engines_->GiveBack(std::move(seat));
   });
-  return trial;
 }
 
 GripStart PhysicsTrials::StartOfDraw(const ExecutedGrasp& grasp, std::size_t draw) const {

@@ -32,9 +32,10 @@ void Bind(OptionTable* table, PhysicsTrialOptions* options);  // keys "trial.*",
 void ApplyProtocol(const Protocol& protocol, MetricOptions* metric, PhysicsTrialOptions* options);
 
 // InputError for an option that this protocol or fingertip makes no use of. `typed`: what was given
-// for a key ("trial.draws"), as it was typed; empty when it was not.
+// for a key ("trial.draws"), as it was typed; empty when it was not. `given`: the grasps are.
 void RequireOptionsUsed(const Protocol& protocol, TipShape tip,
-                        const std::function<std::string(const std::string& key)>& typed);
+                        const std::function<std::string(const std::string& key)>& typed,
+                        bool given = false);
 
 // The friction coefficient of a friction angle, in one reading or in both.
 std::vector<double> FrictionsOf(std::optional<FrictionReading> chosen, double angle_degrees);
@@ -74,6 +75,11 @@ class PhysicsTrials {
   // values for any number of threads. `mesh`: closed and outward, in its own unit. A hundred grasps
   // five times: about a second on one core.
   PhysicsTrial Try(const TriangleMesh& mesh, std::uint64_t stream);
+  // The same with grasps that were planned elsewhere (TrialTable::Proposed) in place of the
+  // protocol's own, each `draws` times, or options.series.executions where the protocol has series.
+  // Which of them a grasp of the trial is: its planned.place.
+  PhysicsTrial Try(const TriangleMesh& mesh, std::uint64_t stream,
+                   const std::vector<ProposedGrasp>& grasps);
   // An execution of the object that was tried last, once more and step by step. The body's frame
   // lies in the mesh's as MeshPose says.
   Execution Replay(const ExecutedGrasp& grasp, std::size_t draw, const ReplayFn& replay);
@@ -86,6 +92,10 @@ class PhysicsTrials {
 
  private:
   struct Pool;
+  bool Place(const TriangleMesh& mesh,
+             PhysicsTrial* trial);  // on its table; false: cannot be tried
+  void ExecuteAll(PhysicsTrial* trial);
+
   MetricOptions metric_;
   PhysicsTrialOptions options_;
   Protocol protocol_;

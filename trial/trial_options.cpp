@@ -4,7 +4,8 @@
 namespace antigrasp {
 
 void RequireOptionsUsed(const Protocol& protocol, TipShape tip,
-                        const std::function<std::string(const std::string& key)>& typed) {
+                        const std::function<std::string(const std::string& key)>& typed,
+                        bool given) {
   const auto refuse = [&](const std::string& who, const std::vector<std::string>& keys,
                           const std::string& expected) {
     for (const std::string& key : keys) {
@@ -19,6 +20,7 @@ void RequireOptionsUsed(const Protocol& protocol, TipShape tip,
   } else {
     refuse(name, {"series", "grasps_per_series", "executions"}, "--draws, or --protocol paper");
   }
+  if (given) refuse("a trial of given grasps", {"series", "grasps_per_series"}, "--executions");
   if (!protocol.table) {
     refuse(name, {"approach_cone", "table_clearance", "table_friction"}, "a protocol with a table");
   }

@@ -5,17 +5,13 @@
 #include "antigrasp/core/rng.h"
 #include "antigrasp/mesh/place.h"
 #include "antigrasp/quality/adaptive_draws.h"
+#include "antigrasp/quality/local_object.h"
 #include "antigrasp/quality/parallel_jaws.h"
 
 namespace antigrasp {
 namespace {
 
 using Eigen::Vector3d;
-
-TriangleMesh MetresAbout(const Vector3d& place, const TriangleMesh& mesh, double scale) {
-  const Vector3d origin = Vector3d::Zero();
-  return Transformed(Transformed(mesh, 1.0, origin - place), scale, origin);
-}
 
 std::vector<NoiseDraw> Draws(const MetricOptions& metric, int count, RngStream* rng) {
   std::vector<NoiseDraw> draws;
@@ -106,11 +102,44 @@ TrialPlan TrialTable::Sample(std::uint64_t seed, std::uint64_t object, int execu
       if (!approach) continue;
       grasp->approach = *approach;
     }
-    RngStream noise(seed, "noise", object, candidate);
-    std::vector<NoisyGrasp> scored = {{*grasp, noise}};  // with a stream of its own
-    DrawAll(*model, metric_, &scored);
     plan.grasps.push_back(
-        {*grasp, pose, scored.front().Mean(), Draws(metric_, executions, &noise)});
+        Planned(*model, *grasp, pose, RngStream(seed, "noise", object, candidate), executions));
+  }
+  return plan;
+}
+
+TrialGrasp TrialTable::Planned(const GraspModel& model, const Grasp& grasp, std::size_t pose,
+                               RngStream noise, int executions) const {
+  std::vector<NoisyGrasp> scored = {{grasp, noise}};  // with a stream of its own
+  DrawAll(model, metric_, &scored);
+  return {grasp, pose, scored.front().Mean(), Draws(metric_, executions, &noise)};
+}
+
+std::optional<std::size_t> TrialTable::PoseFor(Grasp* grasp) const {
+  for (std::size_t pose = 0; pose < poses_.size(); ++pose) {  // the most probable first
+    if (!grasp->approach.isZero(0.0)) {
+      if (reach_.Reaches(*grasp, poses_[pose])) return pose;
+    } else if (const auto approach = reach_.Approach(*grasp, poses_[pose])) {
+      grasp->approach = *approach;
+      return pose;
+    }
+  }
+  return std::nullopt;
+}
+
+TrialPlan TrialTable::Proposed(const std::vector<ProposedGrasp>& grasps, std::uint64_t seed,
+                               std::uint64_t object, int executions, bool in_the_air) const {
+  TrialPlan plan;
+  plan.wanted = plan.candidates = static_cast<int>(grasps.size());
+  const auto model = ParallelJaws({mesh_, scene_, com_}, metric_);
+  if (model == nullptr) return plan;
+  for (std::size_t i = 0; i < grasps.size(); ++i) {
+    Grasp grasp = grasps[i].grasp;
+    const auto pose = in_the_air ? std::optional<std::size_t>(0) : PoseFor(&grasp);
+    if (!pose) continue;
+    plan.grasps.push_back(Planned(*model, grasp, *pose,
+                                  RngStream(seed, "noise", object, grasps[i].number), executions));
+    plan.grasps.back().place = i;
   }
   return plan;
 }

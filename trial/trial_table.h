@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "antigrasp/mesh/ray_scene.h"
@@ -19,6 +20,14 @@ struct TrialGrasp {
   std::size_t pose = 0;          // the stable pose in which the object stands
   double quality = 0.0;          // robust quality
   std::vector<NoiseDraw> draws;  // one an execution
+  std::size_t place = 0;         // among the grasps that were proposed
+};
+
+// A grasp that was planned elsewhere, in the table's metres and place. Approach: from the palm to
+// the fingertips, orthogonal to the axis; zero: any.
+struct ProposedGrasp {
+  Grasp grasp;
+  std::uint64_t number = 0;  // of its draws, as that of a candidate
 };
 
 // What was found, of how many.
@@ -56,8 +65,18 @@ class TrialTable {
   // The same in the air: reached as the metric says, in no pose.
   TrialPlan AllInTheAir(std::uint64_t seed, std::uint64_t object, int executions) const;
 
+  // Grasps that were planned elsewhere: each in the most probable stable pose in which the gripper
+  // gets to it by its own approach; those that it gets to in none are not among them. In the air
+  // all are.
+  TrialPlan Proposed(const std::vector<ProposedGrasp>& grasps, std::uint64_t seed,
+                     std::uint64_t object, int executions, bool in_the_air) const;
+
  private:
   std::size_t DrawPose(RngStream* rng) const;
+  std::optional<std::size_t> PoseFor(Grasp* grasp) const;
+  // With its robust quality and its draws, which are the first ones of that.
+  TrialGrasp Planned(const GraspModel& model, const Grasp& grasp, std::size_t pose, RngStream noise,
+                     int executions) const;
   TrialPlan Sample(std::uint64_t seed, std::uint64_t object, int executions, bool in_the_air) const;
 
   Eigen::Vector3d place_;

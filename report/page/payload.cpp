@@ -56,7 +56,7 @@ std::string EncodeGrasps(std::vector<ScoredGrasp> grasps, double metres_per_unit
   const auto add = [&](const Vector3d& v) {
     for (int k = 0; k < 3; ++k) values.push_back(static_cast<float>(v[k]));
   };
-  for (const auto& [grasp, quality, draws] : grasps) {
+  for (const auto& [grasp, quality, draws, candidate] : grasps) {
     for (const Contact& contact : grasp.contacts) add(contact.point / metres_per_unit);
     for (const Contact& contact : grasp.contacts) add(contact.normal);
     add(grasp.approach);

@@ -105,6 +105,8 @@ class GraspsPage(unittest.TestCase):
         (cls.folder / "bin/antigrasp").symlink_to(os.environ["ANTIGRASP_BINARY"])
         block = re.search(r"```obj\n(.*?)```", cls.page, re.S).group(1)
         (cls.folder / "block.obj").write_text(block)
+        mine = re.search(r"```csv\n(grasp,center_x.*?)```", cls.page, re.S).group(1)
+        (cls.folder / "mine.csv").write_text(mine)
         cls.outputs = {}
         for commands in re.findall(r"```console\n(.*?)```", cls.page, re.S):
             for part in ("\n" + commands).split("\n$ ")[1:]:
@@ -114,7 +116,7 @@ class GraspsPage(unittest.TestCase):
                 cls.outputs[command] = (done.returncode, done.stdout + done.stderr, shown)
 
     def test_every_command_prints_what_the_page_shows(self):
-        self.assertEqual(len(self.outputs), 2, list(self.outputs))
+        self.assertEqual(len(self.outputs), 3, list(self.outputs))
         for command, (code, printed, shown) in self.outputs.items():
             self.assertEqual(code, 0, printed)
             self.assertTrue(shown.strip(), command)

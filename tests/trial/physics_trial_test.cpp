@@ -139,6 +139,53 @@ TEST(PhysicsTrials, EveryProtocolRunsToItsEnd) {
   }
 }
 
+// In the air the plan is the metric's own: what it sampled, proposed, meets the same draws and ends
+// the same way. Two of them take the places of others without a trace.
+TEST(PhysicsTrials, ProposedGraspsAreExecutedAsPlannedOnesAre) {
+  const TriangleMesh cube = BevelledCube(15.0, 0.04);
+  MetricOptions metric = Metric(8, 0.3);
+  PhysicsTrialOptions options;
+  ApplyProtocol(ProtocolOf(ProtocolName::kGraspDataGen), &metric, &options);
+  PhysicsTrials trials(metric, options, 7);
+  const PhysicsTrial planned = trials.Try(cube, 3);
+  std::vector<ProposedGrasp> proposed;
+  for (const ScoredGrasp& scored : EvaluateGraspability(cube, metric, 7, 3).grasps) {
+    proposed.push_back({scored.grasp, scored.candidate});
+  }
+  const PhysicsTrial again = trials.Try(cube, 3, proposed);
+  EXPECT_EQ(Rows(again), Rows(planned));
+  EXPECT_EQ(again.wanted, 8);
+  EXPECT_EQ(again.grasps[7].planned.place, 7U);
+  std::swap(proposed[0], proposed[7]);
+  const PhysicsTrial swapped = trials.Try(cube, 3, proposed);
+  EXPECT_EQ(swapped.grasps[7].planned.quality, planned.grasps[0].planned.quality);
+  EXPECT_EQ(swapped.grasps[7].draws[1].execution.seconds,
+            planned.grasps[0].draws[1].execution.seconds);
+}
+
+// A box rests on its six faces. Along z from above: in the two poses on the faces of z. Across a
+// corner, 54.7 degrees from every face's normal: in none, unless another way in may be looked for.
+TEST(PhysicsTrials, AProposedGraspStandsInThePoseThatItsOwnApproachReaches) {
+  PhysicsTrials trials(Metric(8), {}, 7);
+  Grasp along_x;
+  along_x.axis = Vector3d::UnitX();
+  along_x.approach = -Vector3d::UnitZ();
+  Grasp by_corner = along_x;
+  by_corner.axis = Vector3d(1, -1, 0).normalized();
+  by_corner.approach = Vector3d(-1, -1, -1).normalized();
+  const TriangleMesh box = shapes::Box({0.03, 0.032, 0.034});
+  const PhysicsTrial trial = trials.Try(box, 3, {{by_corner, 0}, {along_x, 1}});
+  ASSERT_EQ(trial.grasps.size(), 1U);
+  EXPECT_EQ(trial.wanted, 2);
+  EXPECT_EQ(trial.grasps[0].planned.place, 1U);
+  EXPECT_EQ(trial.grasps[0].planned.grasp.approach, along_x.approach);
+  EXPECT_EQ(trial.grasps[0].draws.size(), 5U);
+  const auto poses = StablePoses(box, Vector3d::Zero());
+  EXPECT_NEAR(poses[trial.grasps[0].planned.pose].table_from_object(2, 2), 1.0, 1e-9);
+  along_x.approach.setZero();
+  EXPECT_EQ(trials.Try(box, 3, {{along_x, 0}}).grasps.size(), 1U);
+}
+
 TEST(PhysicsTrials, PadsHoldABox) {
   PhysicsTrialOptions options;
   options.physics.tip.shape = TipShape::kPad;

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "antigrasp/core/observer.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/quality/hardest.h"
+#include "antigrasp/quality/judge.h"
 #include "antigrasp/quality/scored_set.h"
 
 namespace antigrasp {
@@ -14,10 +15,13 @@ namespace antigrasp {
 // How the objects of a command line are scored, alike by every command that does.
 struct Scoring {
   MetricOptions metric;
-  bool effort_given = false;  // MetricFlags
+  bool effort_given = false;  // somebody said how many grasps an object gets
   bool egad = false;          // ScoredSet
   std::uint64_t seed = 1;
   int threads = 0;
+  RunObserver* observer = nullptr;                         // needed
+  std::function<void(const std::string&)> warn = nullptr;  // needed; before the result
+  Judge* judge = nullptr;  // scores every usable object, too: columns judge and judge_status
 };
 
 // Draws from the stream of number `stream`: the object's own, or for a pair that of one of the two.
@@ -25,14 +29,12 @@ ScoredObject ScoreObject(const InputObject& object, std::uint64_t stream, const 
 
 // Object by object in their order, each with its original where there are any (`original_of`: its
 // place there); `take` gets each with its row of scores.csv. Warns; InputError when none has a
-// score, of the input `where`.
+// score, of the input `where`. Memory does not grow with the set but for some hundred bytes an
+// object.
 using TakeScored = std::function<void(const ScoredObject&, const ScoreRow&)>;
 ScoredSet ScoreObjects(const ObjectSource& objects, const std::string& where,
                        const ObjectSource* originals, const std::vector<std::int64_t>& original_of,
                        const Scoring& scoring, const TakeScored& take);
-
-// --hardest N; 0 when it is not given.
-CLI::Option* AddHardestFlag(CLI::App* command, int* count, const std::string& help);
 
 // The N hardest of the objects, scored again, and what is to be said of it. The second time they
 // are few, and get as many grasps as few objects do. InputError when none has a grasp.

@@ -1,0 +1,166 @@
+#include "antigrasp/judge/given_objects.h"
+
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/ordered_stream.h"
+#include "antigrasp/datasets/objects.h"
+#include "antigrasp/judge/given_table.h"
+#include "antigrasp/quality/given_grasps.h"
+#include "antigrasp/quality/object_size.h"
+
+namespace antigrasp {
+namespace {
+
+// The grasps of every object, in the order of the table.
+struct ByObject {
+  std::vector<std::vector<GivenGrasp>> grasps;
+  std::int64_t others = 0;  // of objects that are not scored
+};
+
+ByObject Sort(std::vector<GivenGrasp> all, const ObjectSource& objects, const std::string& table) {
+  ByObject by;
+  by.grasps.resize(static_cast<std::size_t>(objects.size()));
+  std::set<std::string> named;
+  for (const GivenGrasp& grasp : all) named.insert(grasp.object);
+  if (objects.size() == 1 && named.size() == 1) {  // whatever they are called
+    by.grasps.front() = std::move(all);
+    return by;
+  }
+  std::map<std::string, std::size_t> place;  // names are told apart by their file names
+  for (std::int64_t i = 0; i < objects.size(); ++i) {
+    place[FileNameOf(objects.name(i))] = static_cast<std::size_t>(i);
+  }
+  for (GivenGrasp& grasp : all) {
+    const auto found = place.find(FileNameOf(grasp.object));
+    if (found == place.end()) {
+      ++by.others;
+    } else {
+      by.grasps[found->second].push_back(std::move(grasp));
+    }
+  }
+  if (by.others == std::ssize(all)) {
+    throw InputError("no grasp of " + objects.name(0), table,
+                     "a column object with the names of the objects that are scored");
+  }
+  return by;
+}
+
+struct ScoredGrasps {
+  std::string status, note;  // of the object
+  Eigen::Vector3d extent = Eigen::Vector3d::Zero();
+  std::vector<GivenScore> scores;
+  std::vector<TriedGrasp> tried;
+};
+
+void TryGrasps(const TriangleMesh& mesh, std::uint64_t stream,
+               const std::vector<GivenGrasp>& grasps, PhysicsTrials* trials, ScoredGrasps* scored) {
+  std::vector<ProposedGrasp> proposed;
+  std::vector<std::size_t> place_of;
+  for (std::size_t i = 0; i < grasps.size(); ++i) {
+    scored->tried.push_back({"not scored"});
+    if (!scored->scores[i].scored()) continue;
+    proposed.push_back({scored->scores[i].grasp, grasps[i].candidate});
+    place_of.push_back(i);
+  }
+  const PhysicsTrial trial = trials->Try(mesh, stream, proposed);
+  for (const std::size_t place : place_of) {
+    scored->tried[place].status = trial.tried ? "not reachable" : "no stable pose";
+  }
+  for (const ExecutedGrasp& grasp : trial.grasps) {
+    TriedGrasp& tried = scored->tried[place_of[grasp.planned.place]];
+    tried.status = "ok";
+    if (trials->protocol().table) tried.pose = static_cast<std::int64_t>(grasp.planned.pose);
+    for (const ExecutedDraw& draw : grasp.draws) {
+      ++tried.executions;
+      tried.held += draw.execution.stages > 0 ? 1 : 0;
+    }
+  }
+}
+
+std::string TrialToml(MetricOptions metric, PhysicsTrialOptions trial) {
+  OptionTable table;
+  Bind(&table, &metric);
+  Bind(&table, &trial);
+  return "engine = \"mujoco " + MujocoVersion() + "\"\nprotocol = \"" + ChoiceName(trial.protocol) +
+         "\"\n\n" + table.Dump();
+}
+
+}  // namespace
+
+GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
+                       const MetricOptions& trial_metric, const PhysicsTrialOptions& trial,
+                       RunObserver* observer) {
+  const ObjectSource objects(request.inputs);
+  const ByObject by = Sort(ReadGivenGrasps(request.grasps), objects, request.grasps);
+  GivenReport report;
+  GivenTable table(request.in_physics);
+  UnlikelySizes sizes(metric);
+  std::string first;  // object that is not usable, and why
+  std::optional<AtomicFile> file;
+  if (!request.out.empty()) file.emplace(request.out);
+  // Objects side by side where there are many, else the executions of one.
+  const int threads = request.threads > 0 ? request.threads : HardwareThreads();
+  const bool many = objects.size() >= 2 * threads;
+  if (request.in_physics) PhysicsTrials(trial_metric, trial, request.seed, 1);  // refuses early
+  StreamInOrder(
+      objects.size(), many ? threads : 1,
+      [&](std::int64_t i) {
+        const auto& grasps = by.grasps[static_cast<std::size_t>(i)];
+        ScoredGrasps scored;
+        if (grasps.empty()) return scored;
+        const InputObject object = objects.Load(i);
+        scored.status = object.status;
+        if (!object.note.empty()) scored.note = object.name + ": " + object.note;
+        if (!object.ok()) return scored;
+        scored.extent = Bounds(object.mesh).Extent();
+        scored.scores =
+            ScoreGivenGrasps(object.mesh, grasps, metric, request.seed, objects.stream(i));
+        if (!request.in_physics) return scored;
+        PhysicsTrials trials(trial_metric, trial, request.seed, many ? 1 : threads);
+        TryGrasps(object.mesh, objects.stream(i), grasps, &trials, &scored);
+        return scored;
+      },
+      [&](std::int64_t i, const ScoredGrasps& scored) {
+        const std::string& name = objects.name(i);
+        table.Add(name, scored.status, by.grasps[static_cast<std::size_t>(i)], scored.scores,
+                  scored.tried);
+        if (!scored.note.empty()) report.warnings.push_back(scored.note);
+        if (!scored.extent.isZero()) sizes.Add(name, scored.extent);
+        if (scored.scores.empty() && !scored.status.empty()) {
+          if (first.empty()) first = name + ": " + scored.status;
+          report.warnings.push_back(name + ": " + scored.status);
+        }
+        if (file) {
+          file->Append(table.TakeText());
+        } else {
+          report.table += table.TakeText();
+        }
+      },
+      observer->Phase("scoring grasps"));
+  if (!table.any_scored() && !first.empty()) {
+    throw InputError("no object scored; " + first, request.inputs.front(), "a closed solid");
+  }
+  report.summary = table.Summary();
+  if (by.others > 0) {
+    report.summary.push_back(std::to_string(by.others) + " grasps of other objects are left out");
+  }
+  for (const std::string& text : sizes.Texts()) report.warnings.push_back(text);
+  if (table.all_miss()) {
+    report.warnings.emplace_back(
+        "every grasp is beside its object: is the table in the unit and frame of the mesh?");
+  }
+  if (!file) return report;
+  file->Commit();
+  WriteFileAtomic(request.out + ".metric.toml", MetricToml(metric, request.seed));
+  if (request.in_physics) {
+    WriteFileAtomic(request.out + ".trial.toml", TrialToml(trial_metric, trial));
+  }
+  return report;
+}
+
+}  // namespace antigrasp

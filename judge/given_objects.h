@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "antigrasp/core/observer.h"
+#include "antigrasp/quality/metric_options.h"
+#include "antigrasp/trial/physics_trial.h"
+
+namespace antigrasp {
+
+// Grasps that somebody else planned, to be scored on their objects.
+struct GivenRequest {
+  std::vector<std::string> inputs;  // objects
+  std::string grasps;               // their table (quality/given_grasps.h)
+  std::string out;                  // table to write, OUT.metric.toml beside it; may be empty
+  bool in_physics = false;          // each is executed, too
+  std::uint64_t seed = 1;
+  int threads = 0;
+};
+
+struct GivenReport {
+  std::string table;  // where nothing is written: what would have been
+  std::vector<std::string> summary, warnings;
+};
+
+// A row for every grasp of the objects, in the order of objects and then of the table: `object,
+// grasp, status, epsilon, robust_quality, width, reachable` and, in physics, `trial, pose,
+// executions, held` (docs/formats.md). `trial_metric`: the metric with what the protocol lays down
+// (ApplyProtocol). Rows of a table belong to the object of their name or file name, all to an only
+// one. InputError, with nothing written, when none belongs to any and when no object is usable.
+GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
+                       const MetricOptions& trial_metric, const PhysicsTrialOptions& trial,
+                       RunObserver* observer);
+
+}  // namespace antigrasp
