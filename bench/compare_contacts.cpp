@@ -7,8 +7,8 @@
 #include <array>
 #include <vector>
 
-#include "antigrasp/trial/mesh_contact.h"
-#include "antigrasp/trial/surface_features.h"
+#include "antigrasp/contact/mesh_contact.h"
+#include "antigrasp/contact/surface_features.h"
 #include "bench/compare.h"
 #include "bench/timing.h"
 #include "tests/support/random_draws.h"

@@ -17,7 +17,7 @@ function(antigrasp_install component export)
   endforeach()
 endfunction()
 
-antigrasp_install(quality antigraspTargets ROOMS core mesh quality)
+antigrasp_install(quality antigraspTargets ROOMS core mesh contact quality)
 if(ANTIGRASP_TORCH)
   antigrasp_install(train antigraspTrainTargets ROOMS sdf datasets render models checkpoints train
                     TARGETS antigrasp_torch antigrasp_gan)

@@ -8,7 +8,7 @@
 #include <unsupported/Eigen/BVH>
 #include <vector>
 
-#include "antigrasp/quality/box_triangle.h"
+#include "antigrasp/contact/box_triangle.h"
 
 namespace antigrasp {
 namespace {

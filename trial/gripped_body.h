@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "antigrasp/mesh/triangle_mesh.h"
-#include "antigrasp/trial/mesh_contact.h"
+#include "antigrasp/contact/mesh_contact.h"
 
 namespace antigrasp {
 

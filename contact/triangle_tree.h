@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "antigrasp/mesh/triangle_mesh.h"
-#include "antigrasp/trial/tip_pose.h"
+#include "antigrasp/contact/tip_pose.h"
 
 namespace antigrasp {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "antigrasp/trial/contact_patch.h"
-#include "antigrasp/trial/tip_pose.h"
+#include "antigrasp/contact/contact_patch.h"
+#include "antigrasp/contact/tip_pose.h"
 
 namespace antigrasp {
 

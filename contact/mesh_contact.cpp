@@ -1,20 +1,21 @@
-#include "antigrasp/trial/mesh_contact.h"
+#include "antigrasp/contact/mesh_contact.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numbers>
 #include <tuple>
 
 #include "antigrasp/mesh/convex_hull.h"
-#include "antigrasp/quality/box_triangle.h"
-#include "antigrasp/trial/contact_patch.h"
-#include "antigrasp/trial/pad_clip.h"
-#include "antigrasp/trial/pad_distance.h"
-#include "antigrasp/trial/surface_features.h"
-#include "antigrasp/trial/triangle_tree.h"
+#include "antigrasp/contact/box_triangle.h"
+#include "antigrasp/contact/contact_patch.h"
+#include "antigrasp/contact/pad_clip.h"
+#include "antigrasp/contact/pad_distance.h"
+#include "antigrasp/contact/surface_features.h"
+#include "antigrasp/contact/triangle_tree.h"
 
 namespace antigrasp {
 namespace {
@@ -90,12 +91,18 @@ bool Contains(const PadPose& outer, const PadPose& inner) {
 }  // namespace
 
 struct ContactSolid::Impl {
-  explicit Impl(const TriangleMesh& mesh)
-      : features(mesh), tree(mesh, features.faces()), hull(HullCorners(mesh)) {}
+  explicit Impl(const TriangleMesh& solid)
+      : mesh(solid), features(solid), tree(solid, features.faces()) {}
 
+  TriangleMesh mesh;
   SurfaceFeatures features;
   TriangleTree tree;
-  std::vector<Vector3d> hull;
+
+  // Of tables alone, and half the cost of a solid: made when one asks first.
+  const std::vector<Vector3d>& Hull() const {
+    std::call_once(hull_made_, [this] { hull_ = HullCorners(mesh); });
+    return hull_;
+  }
 
   std::array<Vector3d, 3> Corners(std::int32_t face) const {
     return {features.corner(face, 0), features.corner(face, 1), features.corner(face, 2)};
@@ -163,6 +170,10 @@ struct ContactSolid::Impl {
       return 0.0;
     });
   }
+
+ private:
+  mutable std::once_flag hull_made_;
+  mutable std::vector<Vector3d> hull_;
 };
 
 ContactSolid::ContactSolid(const TriangleMesh& mesh) : impl_(std::make_unique<const Impl>(mesh)) {}
@@ -230,7 +241,7 @@ int ContactSolid::TouchPlane(const Vector3d& normal, double offset, double margi
   const Vector3d y = normal.unitOrthogonal();
   const Vector3d z = normal.cross(y);
   std::vector<PatchPoint> points;
-  for (const Vector3d& corner : impl_->hull) {
+  for (const Vector3d& corner : impl_->Hull()) {
     const double height = normal.dot(corner) - offset;
     if (height > margin) continue;
     points.push_back({{y.dot(corner), z.dot(corner)}, Vector3d::UnitX(), height});

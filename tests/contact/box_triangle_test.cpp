@@ -1,4 +1,4 @@
-#include "antigrasp/quality/box_triangle.h"
+#include "antigrasp/contact/box_triangle.h"
 
 #include <gtest/gtest.h>
 

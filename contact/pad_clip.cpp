@@ -1,4 +1,4 @@
-#include "antigrasp/trial/pad_clip.h"
+#include "antigrasp/contact/pad_clip.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "antigrasp/trial/mesh_contact.h"
+#include "antigrasp/contact/mesh_contact.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "antigrasp/trial/pad_distance.h"
+#include "antigrasp/contact/pad_distance.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "antigrasp/trial/tip_pose.h"
+#include "antigrasp/contact/tip_pose.h"
 
 namespace antigrasp {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "antigrasp/core/choice.h"
-#include "antigrasp/trial/tip_pose.h"
+#include "antigrasp/contact/tip_pose.h"
 
 namespace antigrasp {
 

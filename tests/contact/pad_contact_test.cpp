@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "antigrasp/trial/mesh_contact.h"
+#include "antigrasp/contact/mesh_contact.h"
 #include "tests/support/contact_shapes.h"
 #include "tests/support/random_draws.h"
 #include "tests/support/shapes.h"

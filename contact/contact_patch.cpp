@@ -1,4 +1,4 @@
-#include "antigrasp/trial/contact_patch.h"
+#include "antigrasp/contact/contact_patch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "antigrasp/trial/triangle_tree.h"
+#include "antigrasp/contact/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "antigrasp/trial/surface_features.h"
+#include "antigrasp/contact/surface_features.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
