@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "antigrasp/core/choice.h"
 #include "antigrasp/contact/tip_pose.h"
+#include "antigrasp/core/choice.h"
 
 namespace antigrasp {
 

@@ -9,13 +9,13 @@
 #include <numbers>
 #include <tuple>
 
-#include "antigrasp/mesh/convex_hull.h"
 #include "antigrasp/contact/box_triangle.h"
 #include "antigrasp/contact/contact_patch.h"
 #include "antigrasp/contact/pad_clip.h"
 #include "antigrasp/contact/pad_distance.h"
 #include "antigrasp/contact/surface_features.h"
 #include "antigrasp/contact/triangle_tree.h"
+#include "antigrasp/mesh/convex_hull.h"
 
 namespace antigrasp {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "antigrasp/mesh/triangle_mesh.h"
 #include "antigrasp/contact/tip_pose.h"
+#include "antigrasp/mesh/triangle_mesh.h"
 
 namespace antigrasp {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "antigrasp/mesh/triangle_mesh.h"
 #include "antigrasp/contact/tip_pose.h"
+#include "antigrasp/mesh/triangle_mesh.h"
 
 namespace antigrasp {
 

@@ -10,6 +10,7 @@ namespace antigrasp {
 namespace {
 
 constexpr const char* kEpsilon = "epsilon";
+constexpr const char* kSettled = "settled";
 constexpr std::string_view kTrial = "trial";
 
 // Judges that need nothing but the object: side by side.
@@ -39,7 +40,8 @@ class ObjectJudge : public Judge {
   std::string name_;
 };
 
-class EpsilonJudge final : public ObjectJudge {
+// The metric, whichever its constants make of it.
+class MetricJudge final : public ObjectJudge {
  public:
   using ObjectJudge::ObjectJudge;
 
@@ -86,7 +88,12 @@ PhysicsTrialOptions AtEqualMass() {
 }
 
 std::unique_ptr<Judge> MakeJudge(const std::string& name, const JudgeOptions& options) {
-  if (name == kEpsilon) return std::make_unique<EpsilonJudge>(name, options);
+  if (name == kEpsilon) return std::make_unique<MetricJudge>(name, options);
+  if (name == kSettled) {
+    JudgeOptions settled = options;
+    JudgeSettled(&settled.metric);
+    return std::make_unique<MetricJudge>(name, settled);
+  }
   if (name != kTrial && !name.starts_with(std::string(kTrial) + ":")) {
     return std::make_unique<ProgramJudge>(name, options.metric, options.program, options.tick);
   }

@@ -24,13 +24,15 @@ struct JudgeOptions {
 
 // Who judges, by name:
 //   epsilon         graspability, today's metric (EvaluateGraspability)
+//   settled         share of settled grasps that hold, 0 to 1 (JudgeSettled): what trials say, at
+//                   a hundredth of their cost (docs/metric.md)
 //   trial           share of executions held, 0 to 1, by the protocol six-ways (PhysicsTrials)
 //   trial:PROTOCOL  by another one, with the friction and mass that it lays down
 //   anything else   a program (ProgramJudge)
 // InputError for trial:NAME of a protocol that does not exist and without MuJoCo.
 std::unique_ptr<Judge> MakeJudge(const std::string& name, const JudgeOptions& options);
 
-// "epsilon, trial, trial:PROTOCOL or a program": for help and messages.
-inline constexpr const char* kJudges = "epsilon, trial, trial:PROTOCOL or a program";
+// For help and messages.
+inline constexpr const char* kJudges = "epsilon, settled, trial, trial:PROTOCOL or a program";
 
 }  // namespace antigrasp

@@ -45,4 +45,16 @@ JawPose ExecutedPose(const Grasp& grasp, const Vector3d& com, const NoiseDraw& n
           Turned(axis_in_world, back).normalized()};
 }
 
+Eigen::Isometry3d GripperFrame(const Grasp& grasp, const JawPose& jaws) {
+  Vector3d in = grasp.approach;
+  if (in.isZero()) in = -jaws.axis.unitOrthogonal();
+  in = (in - in.dot(jaws.axis) * jaws.axis).normalized();
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  frame.linear().col(0) = jaws.axis;
+  frame.linear().col(1) = (-in).cross(jaws.axis);
+  frame.linear().col(2) = -in;
+  frame.translation() = jaws.center;
+  return frame;
+}
+
 }  // namespace antigrasp

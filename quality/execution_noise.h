@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/quality/contact.h"
@@ -27,5 +28,10 @@ struct JawPose {
   Eigen::Vector3d axis;  // unit
 };
 JawPose ExecutedPose(const Grasp& grasp, const Eigen::Vector3d& com, const NoiseDraw& noise);
+
+// The gripper's frame there: the origin midway between the fingertips, x from tip 1 to tip 2, z
+// against the way in, which is the planned one made square to the axis: noise about the axis moves
+// no fingertip. A grasp without a way in gets one.
+Eigen::Isometry3d GripperFrame(const Grasp& grasp, const JawPose& jaws);
 
 }  // namespace antigrasp

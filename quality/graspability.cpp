@@ -68,9 +68,17 @@ void SummarizeGrasps(const MetricOptions& options, Graspability* result) {
     nonzero += scored.quality > 0.0 ? 1 : 0;
   }
   const auto count = static_cast<double>(qualities.size());
-  result->value = DiscretePercentile(qualities, options.percentile);
   result->mean = sum / count;
   result->fraction_nonzero = nonzero / count;
+  if (options.summary == Summary::kMean) {
+    const MeanInterval mean = MeanWithInterval(qualities);
+    const double half = mean.count > 1 ? mean.half_width : 0.0;
+    result->value = result->mean;
+    result->ci_low = result->mean - half;
+    result->ci_high = result->mean + half;
+    return;
+  }
+  result->value = DiscretePercentile(qualities, options.percentile);
   const Interval interval = BootstrapPercentile(qualities, options.percentile);
   result->ci_low = interval.low;
   result->ci_high = interval.high;

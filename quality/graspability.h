@@ -33,8 +33,8 @@ std::string_view Name(GraspabilityStatus status);
 // The graspability of one object: lower = harder to grasp.
 struct Graspability {
   GraspabilityStatus status = GraspabilityStatus::kNotEvaluable;
-  double value = 0.0;   // discrete percentile of the robust qualities
-  double ci_low = 0.0;  // exact bootstrap 95 % interval over grasps
+  double value = 0.0;   // discrete percentile of the robust qualities, or their mean
+  double ci_low = 0.0;  // 95 % interval over grasps: exact bootstrap; of the mean, normal
   double ci_high = 0.0;
   double mean = 0.0;              // mean robust quality
   double fraction_nonzero = 0.0;  // share of grasps with quality > 0

@@ -12,17 +12,18 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr double kGravity = 9.81;
-constexpr double kStep = 0.01;      // s
-constexpr double kSpeed = 0.04;     // of a jaw that nothing holds up, m/s
-constexpr double kDrag = 12.0;      // N s/m, of the body at a force of 15 N
+constexpr double kStep = 0.01;        // s
+constexpr double kSpeed = 0.04;       // of a jaw that nothing holds up, m/s
+constexpr double kDrag = 12.0;        // N s/m, of the body at a force of 15 N
 constexpr double kTurnDrag = 4.5e-3;  // N m s
 constexpr double kDragForce = 15.0;
-constexpr double kMargin = 0.8e-3;  // m: nearer than this is a contact
-constexpr double kRest = 1.5e-3;    // m/s of anything
+constexpr double kMargin = 0.5e-3;  // m: nearer than this is a contact
+constexpr double kRest = 5e-3;      // m/s of anything
+constexpr double kSlack = 1e-3;     // m: faces near a tip are kept that long
 constexpr double kTouch = 1e-4;     // m: conservative advancement ends
-constexpr int kCloseSteps = 60, kLoadSteps = 8, kLostSteps = 4;
+constexpr int kCloseSteps = 60, kLoadSteps = 12, kLostSteps = 4;
 constexpr int kSweeps = 30;
-constexpr double kSolved = 1e-4;  // change of a contact force in a sweep, of the jaws' force
+constexpr double kSolved = 3e-4;  // change of a contact force in a sweep, of the jaws' force
 
 constexpr int kMost = 2 * kMostContacts;
 
@@ -32,7 +33,7 @@ using Motion = Eigen::Matrix<double, 8, 1>;
 
 struct Touching {
   int tip;
-  Vector3d normal;   // out of the object, gripper's frame
+  Vector3d normal;  // out of the object, gripper's frame
   double gap;
   // Along -normal, along two tangents, about the normal: what a unit force does to the motion, and
   // what the motion is there.
@@ -41,10 +42,10 @@ struct Touching {
   std::array<double, 4> force{};
 };
 
-class Closing {
+class ClosingJaws {
  public:
-  Closing(const ContactSolid& solid, const Vector3d& com, double radius, const Fingertip& tip,
-          const GripLoad& load, const Isometry3d& object, double opening, double friction)
+  ClosingJaws(const ContactSolid& solid, const Vector3d& com, double radius, const Fingertip& tip,
+              const GripLoad& load, const Isometry3d& object, double opening, double friction)
       : solid_(solid),
         com_(com),
         radius_(radius),
@@ -56,7 +57,9 @@ class Closing {
         turn_drag_(std::sqrt(kTurnDrag * load.force / kDragForce)),
         jaw_drag_(std::sqrt(2.0 * load.force / kSpeed)),
         turn_(object.linear()),
-        place_(object * com) {}
+        place_(object * com) {
+    for (TouchCache& cache : cache_) cache.slack = kSlack;
+  }
 
   JawSettling::Grip Do() {
     JawSettling::Grip grip;
@@ -89,18 +92,23 @@ class Closing {
     for (const double side : {-1.0, 1.0}) {
       for (const int axis : {2, 0, 1}) {
         const Vector3d weight = side * load_.mass * kGravity * Vector3d::Unit(axis);
-        int lost = 0;
-        for (int i = 0; i < kLoadSteps; ++i) {
-          Step(weight);
-          if (Met()) return false;
-          if (Pressed() && Resting()) break;
-          lost = Pressed() ? 0 : lost + 1;
-          if (lost == kLostSteps) return false;
-        }
-        if (!Pressed()) return false;
+        if (!BearsOne(weight)) return false;
       }
     }
     return true;
+  }
+
+  // It may give way, turn or creep as long as both tips press on.
+  bool BearsOne(const Vector3d& weight) {
+    int apart = 0;
+    for (int i = 0; i < kLoadSteps; ++i) {
+      Step(weight);
+      if (Met()) return false;
+      if (Pressed() && Resting()) return true;
+      apart = Pressed() ? 0 : apart + 1;
+      if (apart == kLostSteps) return false;
+    }
+    return Pressed();
   }
 
   bool Pressed() const { return press_[0] > 0.0 && press_[1] > 0.0; }
@@ -182,9 +190,10 @@ class Closing {
     for (int tip = 0; tip < 2; ++tip) {
       std::array<SurfaceContact, kMostContacts> found;
       const int most = kMostContacts;
-      const int n = tip_.shape == TipShape::kSphere
-                        ? solid_.Touch(Ball(tip, travel_), kMargin, found.data(), 4, &cache_[tip])
-                        : solid_.Touch(Pad(tip, travel_), kMargin, found.data(), most, &cache_[tip]);
+      const int n =
+          tip_.shape == TipShape::kSphere
+              ? solid_.Touch(Ball(tip, travel_), kMargin, found.data(), 4, &cache_[tip])
+              : solid_.Touch(Pad(tip, travel_), kMargin, found.data(), most, &cache_[tip]);
       if (n > 0) first_[tip] = count_;
       for (int k = 0; k < n; ++k) {
         touching_[count_] = Make(tip, found[k]);
@@ -232,13 +241,14 @@ class Closing {
       Touching& t = touching_[i];
       const bool in_pair = first_[0] >= 0 && first_[1] >= 0 && (i == first_[0] || i == first_[1]);
       if (!in_pair) {
-        const double wanted = t.force[0] - (t.row[0].dot(motion_) + t.gap / kStep) / t.compliance[0];
+        const double wanted =
+            t.force[0] - (t.row[0].dot(motion_) + t.gap / kStep) / t.compliance[0];
         change = std::max(change, Set(&t, 0, std::max(0.0, wanted)));
       }
       const double bearable = friction_ * t.force[0];
       double y = t.force[1] - t.row[1].dot(motion_) / t.compliance[1];
       double z = t.force[2] - t.row[2].dot(motion_) / t.compliance[2];
-      const double size = std::hypot(y, z);
+      const double size = std::sqrt(y * y + z * z);
       if (size > bearable) {
         y *= bearable / size;
         z *= bearable / size;
@@ -307,13 +317,13 @@ class Closing {
 
 }  // namespace
 
-JawSettling::JawSettling(const ContactSolid& solid, const Vector3d& com, double radius,
-                         const Fingertip& tip, const GripLoad& load)
-    : solid_(solid), com_(com), radius_(radius), tip_(tip), load_(load) {}
+JawSettling::JawSettling(const Vector3d& com, double radius, const Fingertip& tip,
+                         const GripLoad& load)
+    : com_(com), radius_(radius), tip_(tip), load_(load) {}
 
-JawSettling::Grip JawSettling::Close(const Isometry3d& object, double opening,
-                                     double friction) const {
-  return Closing(solid_, com_, radius_, tip_, load_, object, opening, friction).Do();
+JawSettling::Grip JawSettling::Close(const ContactSolid& solid, const Isometry3d& object,
+                                     double opening, double friction) const {
+  return ClosingJaws(solid, com_, radius_, tip_, load_, object, opening, friction).Do();
 }
 
 }  // namespace antigrasp

@@ -24,10 +24,9 @@ struct GripLoad {
 // counts, and lengths: 33 steps an execution, about 0.1 ms.
 class JawSettling {
  public:
-  // `com`: centre of mass; `radius`: of the farthest vertex from it. Mesh frame, metres. `solid`
-  // must outlive this.
-  JawSettling(const ContactSolid& solid, const Eigen::Vector3d& com, double radius,
-              const Fingertip& tip, const GripLoad& load);
+  // `com`: centre of mass; `radius`: of the farthest vertex from it. Mesh frame, metres.
+  JawSettling(const Eigen::Vector3d& com, double radius, const Fingertip& tip,
+              const GripLoad& load);
 
   struct Grip {
     bool closed = false;  // both tips press and nothing moves
@@ -37,10 +36,10 @@ class JawSettling {
   };
   // `object`: pose of the mesh in the gripper's frame: the origin midway between the fingertips, x
   // from tip 1 to tip 2. `opening`: between the tips' surfaces, m. Const and thread-safe.
-  Grip Close(const Eigen::Isometry3d& object, double opening, double friction) const;
+  Grip Close(const ContactSolid& solid, const Eigen::Isometry3d& object, double opening,
+             double friction) const;
 
  private:
-  const ContactSolid& solid_;
   Eigen::Vector3d com_;
   double radius_;
   Fingertip tip_;

@@ -43,13 +43,21 @@ MetricOptions Egad() {
   return preset;
 }
 
+MetricOptions Settled() {
+  MetricOptions preset;
+  JudgeSettled(&preset);
+  return preset;
+}
+
 // The one list of each kind of preset.
 struct Preset {
   std::string_view name;
   MetricOptions (*make)();
 };
-constexpr std::array<Preset, 3> kPresets = {
-    {{"default", [] { return MetricOptions(); }}, {"dexnet", DexNet}, {"egad", Egad}}};
+constexpr std::array<Preset, 4> kPresets = {{{"default", [] { return MetricOptions(); }},
+                                             {"settled", Settled},
+                                             {"dexnet", DexNet},
+                                             {"egad", Egad}}};
 
 struct Noise {
   std::string_view name;
@@ -89,6 +97,14 @@ std::vector<std::string> NoisePresetNames() { return NamesOf(kNoises); }
 
 void ApplyMetricPreset(const std::string& name, MetricOptions* options) {
   *options = Named(kPresets, name, "metric").make();
+}
+
+void JudgeSettled(MetricOptions* options) {
+  if (options->contact == TipContact::kPoint) options->contact = TipContact::kSphere;
+  options->closing = ClosingEnd::kSettled;
+  options->summary = Summary::kMean;
+  // One draw of a hundred grasps says more of an object than ten of ten.
+  if (options->num_draws == MetricOptions().num_draws) options->num_draws = 1;
 }
 
 double EgadScore(double graspability) {
@@ -142,6 +158,20 @@ void Bind(OptionTable* table, MetricOptions* options) {
   table->Add("metric.friction_std", &o.friction_std, 0.0, 10.0, "friction noise, clipped at 0");
   table->Add("metric.collision", &o.collision,
              "what must be free of collision: the whole gripper, or the two jaw paths");
+  table->Add("metric.contact", &o.contact,
+             "what touches the object: the jaws' line, balls of metric.ball_radius, or flat pads");
+  table->Add("metric.closing", &o.closing,
+             "an executed grasp is judged at the first contacts (epsilon), or when the object has "
+             "settled between the jaws (1 when it bears its weight, else 0)");
+  table->Add("metric.ball_radius", &o.ball_radius, 1e-4, 0.1, "of a ball, m");
+  table->Add("metric.patch_width", &o.patch_width, 1e-4, 0.5, "across grasp axis and way in, m");
+  table->Add("metric.patch_height", &o.patch_height, 1e-4, 0.5, "along the way in, m");
+  table->Add("metric.held_mass", &o.held_mass, 0.0, 1e3,
+             "of every object, kg; counts where it settles");
+  table->Add("metric.grip_force", &o.grip_force, 1e-3, 1e5,
+             "of each jaw, N; counts where it settles");
+  table->Add("metric.summary", &o.summary,
+             "which of the grasps' robust qualities is the graspability: their percentile or mean");
   Bind(table, &o.gripper);
 }
 

@@ -23,6 +23,34 @@ constexpr auto ChoicesOf(Collision) {
       {{Collision::kGripper, "gripper"}, {Collision::kJaws, "jaws"}});
 }
 
+// What touches the object (docs/metric.md, "Contact and closing").
+enum class TipContact {
+  kPoint,   // the jaws' line alone, as Dex-Net
+  kSphere,  // balls of ball_radius
+  kPad      // flat pads
+};
+constexpr auto ChoicesOf(TipContact) {
+  return std::to_array<Choice<TipContact>>(
+      {{TipContact::kPoint, "point"}, {TipContact::kSphere, "sphere"}, {TipContact::kPad, "pad"}});
+}
+
+// When an executed grasp is judged.
+enum class ClosingEnd {
+  kFirst,   // at the first contacts: epsilon, 0 when one slips
+  kSettled  // when the object has come to rest between the jaws: 1 when it bears its weight, else 0
+};
+constexpr auto ChoicesOf(ClosingEnd) {
+  return std::to_array<Choice<ClosingEnd>>(
+      {{ClosingEnd::kFirst, "first"}, {ClosingEnd::kSettled, "settled"}});
+}
+
+// Which number of its grasps' robust qualities an object has.
+enum class Summary { kPercentile, kMean };
+constexpr auto ChoicesOf(Summary) {
+  return std::to_array<Choice<Summary>>(
+      {{Summary::kPercentile, "percentile"}, {Summary::kMean, "mean"}});
+}
+
 // Every constant of the metric (docs/metric.md). Two graspabilities compare only when all are
 // equal, so all are written into every result file. Lengths in metres, angles in radians.
 struct MetricOptions {
@@ -51,13 +79,29 @@ struct MetricOptions {
   Collision collision = Collision::kGripper;
   GripperModel gripper;
   LengthUnit units = LengthUnit::kM;  // of the meshes; counts where objects keep their size
+  // Fingertips that have a size, and objects that move before they are judged.
+  TipContact contact = TipContact::kPoint;
+  ClosingEnd closing = ClosingEnd::kFirst;
+  double ball_radius = 0.005;  // of a ball
+  double patch_width = 0.02;   // across grasp axis and way in
+  double patch_height = 0.02;  // along the way in
+  double held_mass = 0.05;     // of every object, kg; counts where it settles
+  double grip_force = 15.0;    // of each jaw, N; counts where it settles
+  Summary summary = Summary::kPercentile;
 };
 
-// Sets every constant to "default" (above), "dexnet" or "egad". Dex-Net: test/config.yaml of
-// BerkeleyAutomation/dex-net cccf933, 25 grasps and its own noise. EGAD (Morrison et al. 2020):
-// scripts/cfg of dougsm/egad, torque scale 100 / m and no noise, so one draw is all draws.
-// InputError, with nothing changed, for another name than those of MetricPresetNames().
+// Sets every constant to "default" (above), "settled" (the share of executions that a settled
+// grasp of balls holds: what follows trials in physics best, docs/metric.md), "dexnet" or "egad".
+// Dex-Net: test/config.yaml of BerkeleyAutomation/dex-net cccf933, 25 grasps and its own noise.
+// EGAD (Morrison et al. 2020): scripts/cfg of dougsm/egad, torque scale 100 / m and no noise, so
+// one draw is all draws. InputError, with nothing changed, for another name than those of
+// MetricPresetNames().
 void ApplyMetricPreset(const std::string& name, MetricOptions* options);
+
+// Makes these the constants of the preset "settled" in what it changes: fingertips (balls, where
+// nothing else is said), settled contacts, the mean, one draw a grasp where there are the
+// default's.
+void JudgeSettled(MetricOptions* options);
 
 // EGAD's score of a graspability under its preset: 0 (epsilon up to 0.0005, hard to grasp) to 100
 // (0.004 and above, easy), linear between. EGAD cuts it to a whole number.

@@ -3,6 +3,7 @@
 #include "antigrasp/quality/antipodal_sampler.h"
 #include "antigrasp/quality/reachability.h"
 #include "antigrasp/quality/robust_quality.h"
+#include "antigrasp/quality/tip_quality.h"
 
 namespace antigrasp {
 namespace {
@@ -27,6 +28,7 @@ class Jaws final : public GraspModel {
       : object_(object), options_(options), sampler_(std::move(sampler)) {
     if (options.collision == Collision::kGripper)
       gripper_.emplace(object.mesh, object.scene, options.gripper);
+    if (TipQuality::Judges(options)) tips_.emplace(object, options);
   }
 
   std::vector<std::string> Reasons() const override {
@@ -50,6 +52,7 @@ class Jaws final : public GraspModel {
   }
 
   double ExecutedQuality(const Grasp& grasp, const NoiseDraw& noise) const override {
+    if (tips_) return tips_->Executed(grasp, noise);
     return antigrasp::ExecutedQuality(object_.scene, object_.com, grasp, options_, noise);
   }
 
@@ -58,6 +61,7 @@ class Jaws final : public GraspModel {
   MetricOptions options_;
   AntipodalSampler sampler_;
   std::optional<GripperCollision> gripper_;
+  std::optional<TipQuality> tips_;
 };
 
 }  // namespace

@@ -38,14 +38,20 @@ std::string HalfWidth(const char* format, double half_width) {
 }  // namespace
 
 PairDifference DifferenceOf(const Graspability& changed, const Graspability& original,
-                            double percentile) {
+                            const MetricOptions& metric) {
   // An object without a grasp scores 0, surely.
   std::vector<double> of_changed = QualitiesOf(changed), of_original = QualitiesOf(original);
   for (std::vector<double>* qualities : {&of_changed, &of_original}) {
     if (qualities->empty()) qualities->push_back(0.0);
   }
-  return {changed.value - original.value,
-          BootstrapPercentileDifference(std::move(of_changed), std::move(of_original), percentile)};
+  const double difference = changed.value - original.value;
+  if (metric.summary == Summary::kMean) {
+    const double half = std::hypot(MeanWithInterval(of_changed).half_width,
+                                   MeanWithInterval(of_original).half_width);
+    return {difference, {difference - half, difference + half}};
+  }
+  return {difference, BootstrapPercentileDifference(std::move(of_changed), std::move(of_original),
+                                                    metric.percentile)};
 }
 
 std::string PairText(const PairDifference& pair, double baseline) {

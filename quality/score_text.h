@@ -17,7 +17,7 @@ struct PairDifference {
   Interval interval;
 };
 PairDifference DifferenceOf(const Graspability& changed, const Graspability& original,
-                            double percentile);
+                            const MetricOptions& metric);
 // "paired difference -0.00050, 95 % interval over its grasps -0.00060 to -0.00040, -25.8 % (-30.9
 // to -20.6) of the baseline's 0.00194, 1 pairs".
 std::string PairText(const PairDifference& pair, double baseline);

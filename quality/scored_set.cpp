@@ -28,7 +28,7 @@ ScoreRow ScoredSet::Add(const ScoredObject& scored, const ScoredObject* original
     first_ = scored.name + ": " + scored.status;
     if (!scored.score.grasps.empty()) interval_ = IntervalText(scored.score);
     if (std::isfinite(value + baseline) && original != nullptr) {
-      pair_ = DifferenceOf(scored.score, original->score, metric_.percentile);
+      pair_ = DifferenceOf(scored.score, original->score, metric_);
     }
   }
   values_.push_back(value);

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "antigrasp/mesh/triangle_mesh.h"
 #include "antigrasp/contact/mesh_contact.h"
+#include "antigrasp/mesh/triangle_mesh.h"
 
 namespace antigrasp {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "antigrasp/core/options.h"
 #include "antigrasp/contact/fingertip.h"
+#include "antigrasp/core/options.h"
 #include "antigrasp/trial/gripped_body.h"
 
 // What a trial asks of a physics engine: one rigid body between two fingertips that slide towards

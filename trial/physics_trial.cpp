@@ -84,16 +84,7 @@ void ApplyProtocol(const Protocol& protocol, MetricOptions* metric, PhysicsTrial
 GripStart StartOf(const TrialTable& table, const GrippedBody& body, const TrialGrasp& planned,
                   const NoiseDraw& noise, double jaw_opening, bool on_table) {
   const JawPose jaws = ExecutedPose(planned.grasp, table.com(), noise);
-  // The frame's turn about the grasp axis is the planned one: the noise about it moves no
-  // fingertip.
-  Vector3d in = planned.grasp.approach;
-  if (in.isZero()) in = -jaws.axis.unitOrthogonal();
-  in = (in - in.dot(jaws.axis) * jaws.axis).normalized();
-  Isometry3d gripper = Isometry3d::Identity();  // in the object's frame
-  gripper.linear().col(0) = jaws.axis;
-  gripper.linear().col(1) = (-in).cross(jaws.axis);
-  gripper.linear().col(2) = -in;
-  gripper.translation() = jaws.center;
+  const Isometry3d gripper = GripperFrame(planned.grasp, jaws);  // in the object's frame
   GripStart start;
   start.body = gripper.inverse() * body.from_object.inverse();
   start.opening = jaw_opening;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "antigrasp/core/rng.h"
-#include "tests/quality/clip_oracle.h"
+#include "tests/contact/clip_oracle.h"
 
 namespace antigrasp {
 namespace {

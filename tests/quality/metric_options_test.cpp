@@ -30,7 +30,15 @@ MetricOptions Unusual() {
           0.05,
           Collision::kJaws,
           {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 9},
-          LengthUnit::kIn};
+          LengthUnit::kIn,
+          TipContact::kPad,
+          ClosingEnd::kSettled,
+          0.004,
+          0.014,
+          0.015,
+          0.016,
+          17.0,
+          Summary::kMean};
 }
 
 void ExpectEqual(const MetricOptions& a, const MetricOptions& b) {
@@ -53,6 +61,14 @@ void ExpectEqual(const MetricOptions& a, const MetricOptions& b) {
   EXPECT_EQ(a.grasp_rotation_std, b.grasp_rotation_std);
   EXPECT_EQ(a.friction_std, b.friction_std);
   EXPECT_EQ(a.collision, b.collision);
+  EXPECT_EQ(a.contact, b.contact);
+  EXPECT_EQ(a.closing, b.closing);
+  EXPECT_EQ(a.ball_radius, b.ball_radius);
+  EXPECT_EQ(a.patch_width, b.patch_width);
+  EXPECT_EQ(a.patch_height, b.patch_height);
+  EXPECT_EQ(a.held_mass, b.held_mass);
+  EXPECT_EQ(a.grip_force, b.grip_force);
+  EXPECT_EQ(a.summary, b.summary);
   EXPECT_EQ(a.gripper.palm_distance, b.gripper.palm_distance);
   EXPECT_EQ(a.gripper.fingertip_overlap, b.gripper.fingertip_overlap);
   EXPECT_EQ(a.gripper.finger_width, b.gripper.finger_width);
@@ -70,7 +86,7 @@ TEST(MetricOptions, EveryFieldSurvivesTheConfigurationFile) {
   OptionTable out, in;
   Bind(&out, &written);
   Bind(&in, &read);
-  EXPECT_EQ(out.options().size(), 29u);
+  EXPECT_EQ(out.options().size(), 37u);
   in.ApplyText(out.Dump(), "dump");
   ExpectEqual(read, Unusual());
 }
@@ -97,6 +113,14 @@ TEST(MetricOptions, EveryKeyIsBoundToItsFieldAndEveryDefaultIsItsNumber) {
                                       "metric.grasp_rotation_std = 0.001",
                                       "metric.friction_std = 0.1",
                                       "metric.collision = 'gripper'",
+                                      "metric.contact = 'point'",
+                                      "metric.closing = 'first'",
+                                      "metric.ball_radius = 0.005",
+                                      "metric.patch_width = 0.02",
+                                      "metric.patch_height = 0.02",
+                                      "metric.held_mass = 0.05",
+                                      "metric.grip_force = 15.0",
+                                      "metric.summary = 'percentile'",
                                       "gripper.palm_distance = 0.046",
                                       "gripper.fingertip_overlap = 0.01",
                                       "gripper.finger_width = 0.02",
@@ -126,6 +150,14 @@ TEST(MetricOptions, EveryKeyIsBoundToItsFieldAndEveryDefaultIsItsNumber) {
                                                           "metric.grasp_rotation_std = 0.04",
                                                           "metric.friction_std = 0.05",
                                                           "metric.collision = 'jaws'",
+                                                          "metric.contact = 'pad'",
+                                                          "metric.closing = 'settled'",
+                                                          "metric.ball_radius = 0.004",
+                                                          "metric.patch_width = 0.014",
+                                                          "metric.patch_height = 0.015",
+                                                          "metric.held_mass = 0.016",
+                                                          "metric.grip_force = 17.0",
+                                                          "metric.summary = 'mean'",
                                                           "gripper.palm_distance = 0.01",
                                                           "gripper.fingertip_overlap = 0.02",
                                                           "gripper.finger_width = 0.03",
@@ -190,7 +222,8 @@ TEST(MetricPreset, EachIsTheseNumbers) {
 }
 
 TEST(MetricPreset, SetsEveryConstantWhateverWasThere) {
-  EXPECT_EQ(MetricPresetNames(), (std::vector<std::string>{"default", "dexnet", "egad"}));
+  EXPECT_EQ(MetricPresetNames(),
+            (std::vector<std::string>{"default", "settled", "dexnet", "egad"}));
   for (const std::string& name : MetricPresetNames()) {
     MetricOptions a, b = Unusual();
     ApplyMetricPreset(name, &a);

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "antigrasp/core/rng.h"
-#include "tests/quality/clip_oracle.h"
+#include "tests/contact/clip_oracle.h"
 #include "tests/quality/reached_object.h"
 #include "tests/support/shapes.h"
 

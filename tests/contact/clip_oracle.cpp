@@ -1,4 +1,4 @@
-#include "tests/quality/clip_oracle.h"
+#include "tests/contact/clip_oracle.h"
 
 #include <vector>
 
