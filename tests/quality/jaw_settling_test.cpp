@@ -15,7 +15,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kOpening = 0.05;
+constexpr double kWideOpen = 0.05;
 
 JawSettling::Grip CloseOn(const TriangleMesh& mesh, const Vector3d& offset, double friction,
                           const GripLoad& load = {}, TipShape shape = TipShape::kSphere) {
@@ -26,7 +26,7 @@ JawSettling::Grip CloseOn(const TriangleMesh& mesh, const Vector3d& offset, doub
   tip.shape = shape;
   Isometry3d object = Isometry3d::Identity();
   object.translation() = offset - com;
-  return JawSettling(com, radius, tip, load).Close(ContactSolid(mesh), object, kOpening, friction);
+  return JawSettling(com, radius, tip, load).Close(ContactSolid(mesh), object, kWideOpen, friction);
 }
 
 // Its sides lean by `half` degrees each: they meet above.
@@ -70,7 +70,7 @@ TEST(JawSettling, WhatSlipsAtTheFirstTouchMayBeCaught) {
   Isometry3d object = Isometry3d::Identity();
   object.linear() = Eigen::AngleAxisd(8.0 * kDegree, Vector3d::UnitZ()).toRotationMatrix();
   const auto grip =
-      JawSettling(com, 0.05, {}, {}).Close(ContactSolid(box), object, kOpening, std::tan(4 * kDegree));
+      JawSettling(com, 0.05, {}, {}).Close(ContactSolid(box), object, kWideOpen, std::tan(4 * kDegree));
   EXPECT_TRUE(grip.held);
   const double left = std::asin(grip.object.linear()(1, 0)) / kDegree;
   EXPECT_LT(std::abs(left), 4.5);  // inside the friction angle now
