@@ -4,10 +4,13 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
+#include "antigrasp/app/trial_flags.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/datasets/import_report.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/datasets/prior_set.h"
+#include "antigrasp/judge/make_judge.h"
+#include "antigrasp/judge/pair_dataset.h"
 #include "antigrasp/mesh/mesh_format.h"
 
 namespace antigrasp {
@@ -47,6 +50,51 @@ void Import(const ImportFlags& flags) {
   std::fputs(ImportText(reports, flags.out, flags.options.resolution).c_str(), stdout);
 }
 
+struct PairFlags : PairRequest {
+  ProtocolName protocol = ProtocolName::kSixWays;
+};
+
+void Pair(const PairFlags& flags, const CLI::App& command, const OptionFlags& trial_flags,
+          const MetricFlags& metric_flags) {
+  const Protocol protocol = ProtocolOf(flags.protocol);
+  const MetricOptions metric = metric_flags.Resolve();
+  MetricOptions of_trial = metric;
+  PhysicsTrialOptions trial = TrialOptionsOf(protocol, command, trial_flags, &of_trial);
+  RequireOptionsUsed(protocol, trial.physics.tip.shape,
+                     [&](const std::string& key) { return trial_flags.Typed(key); });
+  if (trial.mass == 0.0 && trial_flags.Typed("trial.mass").empty()) trial.mass = AtEqualMass().mass;
+  ConsoleObserver console;
+  const PairReport report = WritePairDataset(flags, metric, of_trial, trial, &console);
+  for (const std::string& warning : report.warnings) Warn(warning);
+  std::fputs(report.text.c_str(), stdout);
+}
+
+void AddPairCommand(CLI::App* dataset) {
+  const auto flags = std::make_shared<PairFlags>();
+  CLI::App* pair = dataset->add_subcommand(
+      "pair", "Write objects before and after a change with grasps and labels, to train on");
+  pair->add_option("BEFORE", flags->before, "a mesh, a folder of meshes or an SDF file")
+      ->required();
+  pair->add_option("AFTER", flags->after, "the same objects changed; paired by name")->required();
+  pair->add_option("--out", flags->out, "folder (docs/formats.md)")->required();
+  AddOverwrite(pair, &flags->overwrite);
+  AddChoice(pair, "--protocol", &flags->protocol,
+            "of the trial; objects of 50 g where no other "
+            "mass is given (--mass 0: each its own)");
+  pair->add_option("--train", flags->train, "share of the objects to train on")
+      ->check(NumberIn(0.0, 1.0))
+      ->capture_default_str();
+  pair->add_option("--val", flags->val, "to validate on; the others are the test")
+      ->check(NumberIn(0.0, 1.0))
+      ->capture_default_str();
+  pair->add_option("--license", flags->license, "of the data, for datasheet.md");
+  pair->add_option("--seed", flags->seed, "random seed")->capture_default_str();
+  AddThreads(pair, &flags->threads);
+  const auto trial = std::make_shared<OptionFlags>(AddOptions<PhysicsTrialOptions>(pair, "Trial"));
+  const auto metric = std::make_shared<MetricFlags>(pair);
+  pair->callback([flags, pair, trial, metric] { Pair(*flags, *pair, *trial, *metric); });
+}
+
 void AddResolution(CLI::App* command, int* resolution) {
   command
       ->add_option("--resolution", *resolution,
@@ -58,8 +106,8 @@ void AddResolution(CLI::App* command, int* resolution) {
 }  // namespace
 
 void AddDatasetCommand(CLI::App* app) {
-  CLI::App* dataset =
-      app->add_subcommand("dataset", "Make a prior set, or import one from mesh files");
+  CLI::App* dataset = app->add_subcommand(
+      "dataset", "Make a prior set, import one from mesh files, or pair objects");
   dataset->require_subcommand(1);
 
   const auto make_flags = std::make_shared<MakeFlags>();
@@ -88,6 +136,7 @@ void AddDatasetCommand(CLI::App* app) {
   AddResolution(imported, &import_flags->options.resolution);
   AddThreads(imported, &import_flags->options.threads);
   imported->callback([import_flags] { Import(*import_flags); });
+  AddPairCommand(dataset);
 }
 
 }  // namespace antigrasp

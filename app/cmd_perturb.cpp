@@ -7,10 +7,10 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
-#include "antigrasp/app/object_notes.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/result_folder.h"
+#include "antigrasp/judge/object_notes.h"
 #include "antigrasp/perturb/antipodal_rotation.h"
 #include "antigrasp/perturb/exhaustive.h"
 #include "antigrasp/perturb/perturb_all.h"
@@ -40,8 +40,8 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
   }
   ResultFolder results(flags.out, PerturbFiles(), source, flags.overwrite);
   auto inputs = LoadObjects(source, flags.threads, console.Phase("reading"));
-  WarnOfNotes(inputs);
-  WarnOfSizes(inputs, settings.metric);
+  WarnOfNotes(inputs, &Warn);
+  WarnOfSizes(inputs, settings.metric, &Warn);
   const auto objects = PerturbAll(std::move(inputs), settings, flags.threads, InterruptRequested,
                                   console.Phase("perturbing"));
   const std::vector<std::string> notes = WritePerturbFiles(

@@ -6,10 +6,10 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
-#include "antigrasp/app/object_notes.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/objects.h"
+#include "antigrasp/judge/object_notes.h"
 #include "antigrasp/mesh/pose_table.h"
 
 namespace antigrasp {
@@ -29,7 +29,7 @@ void Poses(const PosesFlags& flags) {
   source.RequireNotRead({flags.out});
   const std::vector<InputObject> objects =
       LoadObjects(source, flags.threads, console.Phase("reading"));
-  WarnOfNotes(objects);
+  WarnOfNotes(objects, &Warn);
   std::vector<std::vector<StablePose>> poses(objects.size());
   ParallelFor(
       std::ssize(objects), flags.threads,

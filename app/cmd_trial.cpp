@@ -9,12 +9,12 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
-#include "antigrasp/app/object_notes.h"
 #include "antigrasp/app/trial_flags.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
 #include "antigrasp/datasets/objects.h"
+#include "antigrasp/judge/object_notes.h"
 #include "antigrasp/trial/model_table.h"
 #include "antigrasp/trial/object_trials.h"
 
@@ -42,7 +42,7 @@ std::vector<InputObject> LoadUsable(const TrialFlags& flags) {
   const ObjectSource source(flags.inputs);
   source.RequireNotRead({flags.out});
   std::vector<InputObject> objects = LoadObjects(source, flags.threads, console.Phase("reading"));
-  WarnOfNotes(objects);
+  WarnOfNotes(objects, &Warn);
   const std::string first = objects.front().status;
   for (const InputObject& object : objects) {
     if (!object.ok()) spdlog::warn("{}: left out: {}", object.name, object.status);
@@ -58,7 +58,7 @@ void TrialByModel(const TrialFlags& flags, const PhysicsTrialOptions& given, Met
   Bind(&table, &options);
   if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
   const std::vector<InputObject> objects = LoadUsable(flags);
-  WarnOfSizes(objects, metric);
+  WarnOfSizes(objects, metric, &Warn);
   ConsoleObserver console;
   const std::vector<TrialReading> all =
       RunReadings(objects, FindChoice<FrictionReading>(flags.reading), flags.friction_angle, metric,
@@ -124,28 +124,6 @@ void Trial(TrialFlags flags, const CLI::App& command, const OptionFlags& trial_f
   std::fputs(report.text.c_str(), stdout);
 }
 
-constexpr const char* kAboutTrial =
-    "In physics (--engine mujoco) the object rests on a table in a stable pose drawn by its\n"
-    "probability; the gripper comes from above, closes by force, lifts and is loaded. Grasps are\n"
-    "planned at the trial's friction. Protocols, each from its source (docs/trials.md):\n"
-    "  six-ways      every planned grasp; weight in six directions, at 1, 3 and 8 g\n"
-    "  paper         five best grasps that were not executed yet, three times each; carried\n"
-    "  graspdatagen  no table; five tugs of 1 g; 1 kg, friction 1\n"
-    "  dexgraspbench no table; six runs, within 50 mm and 15 degrees; 0.1 kg, friction 0.6\n"
-    "Held, in percent of the executions; best: of the grasp of highest robust quality; top: of "
-    "the\n"
-    "best quarter; force closure: what the metric says of the same executions. With --baseline\n"
-    "both are tried at their own mass and at --equal-mass, with equal draws.\n\n"
-    "--engine model asks the metric's model instead (the paper's Table I): a series plans anew,\n"
-    "then, five times, draws a stable pose, takes the best grasp that the gripper reaches and "
-    "that\n"
-    "was not executed yet, and executes it three times. It holds when both jaws touch first from\n"
-    "outside and the line between the contacts lies in both friction cones (force closure), and\n"
-    "when epsilon is also above --min-epsilon. A grasp that was not found counts as not held.\n"
-    "Reading half-angle takes the friction angle as the cone's half angle, full-cone as the "
-    "opening\n"
-    "of the whole cone. Intervals allow for executions that share a plan.\n";
-
 }  // namespace
 
 void AddTrialCommand(CLI::App* app) {
@@ -189,7 +167,7 @@ void AddTrialCommand(CLI::App* app) {
   command->remove_option(command->get_option("--percentile"));  // without meaning here
   command->get_option("--friction")->excludes("--friction-angle");
   for (const char* name : {"--units", "--object-min-extent"}) mm->excludes(name);
-  command->footer(kAboutTrial);
+  command->footer(kTrialHelp);
   command->callback([flags, command, trial_flags, metric_flags] {
     Trial(*flags, *command, *trial_flags, *metric_flags);
   });

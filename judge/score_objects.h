@@ -6,6 +6,7 @@
 
 #include "antigrasp/core/observer.h"
 #include "antigrasp/datasets/objects.h"
+#include "antigrasp/judge/object_notes.h"
 #include "antigrasp/quality/hardest.h"
 #include "antigrasp/quality/judge.h"
 #include "antigrasp/quality/scored_set.h"
@@ -19,8 +20,8 @@ struct Scoring {
   bool egad = false;          // ScoredSet
   std::uint64_t seed = 1;
   int threads = 0;
-  RunObserver* observer = nullptr;                         // needed
-  std::function<void(const std::string&)> warn = nullptr;  // needed; before the result
+  RunObserver* observer = nullptr;  // needed
+  WarnFn warn = nullptr;            // needed; before the result
   Judge* judge = nullptr;  // scores every usable object, too: columns judge and judge_status
 };
 

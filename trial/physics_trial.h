@@ -37,6 +37,9 @@ void RequireOptionsUsed(const Protocol& protocol, TipShape tip,
                         const std::function<std::string(const std::string& key)>& typed,
                         bool given = false);
 
+// What a trial is, its protocols and its judges by name: for a command's help.
+extern const char* const kTrialHelp;
+
 // The friction coefficient of a friction angle, in one reading or in both.
 std::vector<double> FrictionsOf(std::optional<FrictionReading> chosen, double angle_degrees);
 
@@ -89,6 +92,7 @@ class PhysicsTrials {
   GripStart StartOfDraw(const ExecutedGrasp& grasp, std::size_t draw) const;  // of the last object
 
   const Protocol& protocol() const { return protocol_; }
+  const TrialTable& table() const { return *table_; }  // of the last object that could be tried
 
  private:
   struct Pool;

@@ -41,4 +41,26 @@ std::vector<double> FrictionsOf(std::optional<FrictionReading> chosen, double an
   return frictions;
 }
 
+const char* const kTrialHelp =
+    "In physics (--engine mujoco) the object rests on a table in a stable pose drawn by its\n"
+    "probability; the gripper comes from above, closes by force, lifts and is loaded. Grasps are\n"
+    "planned at the trial's friction. Protocols, each from its source (docs/trials.md):\n"
+    "  six-ways      every planned grasp; weight in six directions, at 1, 3 and 8 g\n"
+    "  paper         five best grasps that were not executed yet, three times each; carried\n"
+    "  graspdatagen  no table; five tugs of 1 g; 1 kg, friction 1\n"
+    "  dexgraspbench no table; six runs, within 50 mm and 15 degrees; 0.1 kg, friction 0.6\n"
+    "Held, in percent of the executions; best: of the grasp of highest robust quality; top: of "
+    "the\n"
+    "best quarter; force closure: what the metric says of the same executions. With --baseline\n"
+    "both are tried at their own mass and at --equal-mass, with equal draws.\n\n"
+    "--engine model asks the metric's model instead (the paper's Table I): a series plans anew,\n"
+    "then, five times, draws a stable pose, takes the best grasp that the gripper reaches and "
+    "that\n"
+    "was not executed yet, and executes it three times. It holds when both jaws touch first from\n"
+    "outside and the line between the contacts lies in both friction cones (force closure), and\n"
+    "when epsilon is also above --min-epsilon. A grasp that was not found counts as not held.\n"
+    "Reading half-angle takes the friction angle as the cone's half angle, full-cone as the "
+    "opening\n"
+    "of the whole cone. Intervals allow for executions that share a plan.\n";
+
 }  // namespace antigrasp

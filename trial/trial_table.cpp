@@ -104,6 +104,7 @@ TrialPlan TrialTable::Sample(std::uint64_t seed, std::uint64_t object, int execu
     }
     plan.grasps.push_back(
         Planned(*model, *grasp, pose, RngStream(seed, "noise", object, candidate), executions));
+    plan.grasps.back().candidate = candidate;
   }
   return plan;
 }
@@ -140,6 +141,7 @@ TrialPlan TrialTable::Proposed(const std::vector<ProposedGrasp>& grasps, std::ui
     plan.grasps.push_back(Planned(*model, grasp, *pose,
                                   RngStream(seed, "noise", object, grasps[i].number), executions));
     plan.grasps.back().place = i;
+    plan.grasps.back().candidate = grasps[i].number;
   }
   return plan;
 }

@@ -16,11 +16,12 @@ namespace antigrasp {
 
 // A grasp with the way in that the gripper takes to it and the noise of its executions.
 struct TrialGrasp {
-  Grasp grasp;                   // grasp.approach is the way in
-  std::size_t pose = 0;          // the stable pose in which the object stands
-  double quality = 0.0;          // robust quality
-  std::vector<NoiseDraw> draws;  // one an execution
-  std::size_t place = 0;         // among the grasps that were proposed
+  Grasp grasp;                                  // grasp.approach is the way in
+  std::size_t pose = 0;                         // the stable pose in which the object stands
+  double quality = 0.0;                         // robust quality
+  std::vector<NoiseDraw> draws;                 // one an execution
+  std::size_t place = 0;                        // among the grasps that were proposed
+  std::optional<std::uint64_t> candidate = {};  // its number, which its draws have; none in series
 };
 
 // A grasp that was planned elsewhere, in the table's metres and place. Approach: from the palm to
