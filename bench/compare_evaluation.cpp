@@ -173,6 +173,24 @@ void CompareAdaptive(const std::vector<TriangleMesh>& meshes, const MetricOption
               100 * draws / all, equal, a.size(), inside);
 }
 
+// The settled metric beside graspability, an object of the set a call, one thread.
+void CompareSettled(const std::vector<TriangleMesh>& meshes, const MetricOptions& options,
+                    double* sink) {
+  const auto run = [&](const MetricOptions& metric) {
+    return [&meshes, &metric, sink] { *sink += ScoreEach(meshes, metric, 1).front().value; };
+  };
+  MetricOptions settled = options, balls = options;
+  JudgeSettled(&settled);
+  balls.contact = TipContact::kSphere;
+  const std::vector<double> seconds = MedianSeconds(
+      {{"graspability", run(options)}, {"settled", run(settled)}, {"balls", run(balls)}}, 3);
+  const double each = 1e3 / static_cast<double>(meshes.size());
+  std::printf(
+      "time object_graspability %.2f ms, settled %.2f ms, balls at first contacts %.2f ms\n",
+      each * seconds[0], each * seconds[1], each * seconds[2]);
+  std::printf("limit settled_vs_graspability %.2f (of its cost)\n", seconds[1] / seconds[0]);
+}
+
 void ComparePeer(const TriangleMesh& unit_mesh, const MetricOptions& options, double* sink) {
   const Recorded r = Record(unit_mesh, options);
   const auto ours = [&] {
@@ -235,6 +253,7 @@ void CompareEvaluation() {
   CompareRays(meshes[0], options, &sink);
   ComparePeer(meshes[0], options, &sink);
   CompareAdaptive(meshes, options, &sink);
+  CompareSettled(meshes, options, &sink);
   CompareThreads(meshes, options, &sink);
 }
 

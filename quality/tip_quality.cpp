@@ -26,7 +26,8 @@ Fingertip TipOf(const MetricOptions& options) {
 
 double RadiusAbout(const TriangleMesh& mesh, const Vector3d& com) {
   double square = 0.0;
-  for (const Vector3d& vertex : mesh.vertices) square = std::max(square, (vertex - com).squaredNorm());
+  for (const Vector3d& vertex : mesh.vertices)
+    square = std::max(square, (vertex - com).squaredNorm());
   return std::sqrt(square);
 }
 

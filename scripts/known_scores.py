@@ -3,7 +3,7 @@
 
 Makes 200 objects of each prior set and of each adversarial network that ship (seed 1) and four everyday solids, scores
 them on 1000 grasps each (seed 1) and writes quality/known_scores.inc, which `antigrasp evaluate` sets scores beside, and
-the table in docs/metric.md. Three minutes of processor time; needs a build with the networks.
+the table in docs/metric.md. Seven minutes of processor time; needs a build with the networks.
 """
 import argparse
 import csv
@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PRESETS = ("default", "dexnet", "egad")
+PRESETS = ("default", "settled", "dexnet", "egad")
 KINDS = ("cylinders", "prisms", "bottles")
 COUNT, GRASPS = 200, 1000
 MARKS = ("<!-- begin known scores -->\n", "<!-- end known scores -->\n")
@@ -106,12 +106,17 @@ def main():
                  folder / f"{kind}-adversarial.h5")
         for preset in PRESETS:
             own = scores(preset, folder / "solids", folder)
-            cells = ["{:.3f} ({:.3f}-{:.3f})".format(*(1000 * x for x in own[f"{name}.obj"])) for name in solids()]
+            factor, digits = (100, 1) if preset == "settled" else (1000, 3)
+
+            def text(*numbers):
+                return [f"{factor * x:.{digits}f}" for x in numbers]
+
+            cells = ["{} ({}-{})".format(*text(*own[f"{name}.obj"])) for name in solids()]
             for name in (f"{kind}{end}" for kind in KINDS for end in ("", "-adversarial")):
                 values = sorted(score for score, _, _ in scores(preset, folder / f"{name}.h5", folder).values())
-                cells.append("{:.3f} / {:.3f} / {:.3f}".format(*(1000 * x for x in statistics.quantiles(values, n=4))))
+                cells.append(" / ".join(text(*statistics.quantiles(values, n=4))))
                 entries.append(f'{{"{preset}", "{name}",\n {{' + ", ".join(f"{value:.4g}" for value in values) + "}},\n")
-            table.append(f"| {preset} | " + " | ".join(cells) + " |")
+            table.append(f"| {preset}{', percent' if preset == 'settled' else ''} | " + " | ".join(cells) + " |")
     (ROOT / "quality/known_scores.inc").write_text("// Written by scripts/known_scores.py.\n" + "".join(entries))
     document = ROOT / "docs/metric.md"
     text = document.read_text()

@@ -32,11 +32,9 @@ JawSettling::Grip CloseOn(const TriangleMesh& mesh, const Vector3d& offset, doub
 // Its sides lean by `half` degrees each: they meet above.
 TriangleMesh Wedge(double half) {
   const double lean = 0.02 * std::tan(half * kDegree);
-  return shapes::Extruded({{-0.015 - lean, -0.02},
-                           {0.015 + lean, -0.02},
-                           {0.015 - lean, 0.02},
-                           {-0.015 + lean, 0.02}},
-                          {{{0, 1, 2}}, {{0, 2, 3}}}, 0.04);
+  return shapes::Extruded(
+      {{-0.015 - lean, -0.02}, {0.015 + lean, -0.02}, {0.015 - lean, 0.02}, {-0.015 + lean, 0.02}},
+      {{{0, 1, 2}}, {{0, 2, 3}}}, 0.04);
 }
 
 TEST(JawSettling, ABoxBetweenTheJawsStaysWhereItIs) {
@@ -69,8 +67,8 @@ TEST(JawSettling, WhatSlipsAtTheFirstTouchMayBeCaught) {
   const Vector3d com = Vector3d::Zero();
   Isometry3d object = Isometry3d::Identity();
   object.linear() = Eigen::AngleAxisd(8.0 * kDegree, Vector3d::UnitZ()).toRotationMatrix();
-  const auto grip =
-      JawSettling(com, 0.05, {}, {}).Close(ContactSolid(box), object, kWideOpen, std::tan(4 * kDegree));
+  const auto grip = JawSettling(com, 0.05, {}, {})
+                        .Close(ContactSolid(box), object, kWideOpen, std::tan(4 * kDegree));
   EXPECT_TRUE(grip.held);
   const double left = std::asin(grip.object.linear()(1, 0)) / kDegree;
   EXPECT_LT(std::abs(left), 4.5);  // inside the friction angle now

@@ -55,7 +55,8 @@ TEST(TipQuality, ABallTouchesTheOffsetSurface) {
   // A ball of 5 mm beside the edge of a box, 3 mm past it: it meets the edge where the circle does.
   const TriangleMesh box = shapes::Box({0.03, 0.04, 0.05});
   const RayScene scene(box);
-  const TipQuality tips({box, scene, Vector3d::Zero()}, With(TipContact::kSphere, ClosingEnd::kFirst));
+  const TipQuality tips({box, scene, Vector3d::Zero()},
+                        With(TipContact::kSphere, ClosingEnd::kFirst));
   const auto contacts = tips.FirstContacts(Across({0.0, 0.023, 0.0}), {.friction = 10.0});
   ASSERT_TRUE(contacts);
   const Vector3d edge(-0.015, 0.02, 0.0);
