@@ -16,7 +16,13 @@ constexpr double kStill = 0.001;  // m/s of any point of the body, and of the ja
 constexpr double kStillSeconds = 0.010;
 constexpr double kSettled = 0.005;  // m/s: a body that sticks and moves no faster stays
 constexpr int kSettledSteps = 5;
-constexpr double kLostSeconds = 0.030;  // without a touch of one fingertip
+constexpr double kResting = 0.0005;  // m/s: no more than this, it stays whether it sticks or not
+constexpr int kRestingSteps = 10;
+constexpr double kJammed = 0.0002;  // m/s of body and jaws
+constexpr double kJammedSeconds = 0.300;
+constexpr double kLyingSeconds =
+    0.040;  // on its table, before a jaw comes: until it is at rest there
+constexpr double kLostSeconds = 0.030;  // without a touch
 constexpr double kGone = 0.08;          // m
 constexpr double kMet = 0.0002;         // m between the fingertips
 constexpr double kTurnedAway = 30.0 * kDegree;
@@ -56,7 +62,7 @@ class Run {
   }
 
  private:
-  // Whether there is anything to simulate; the jaws are taken to where they first touch.
+  // Whether there is anything to simulate; the jaws are taken to the last step before they touch.
   bool Starts() {
     if (Overlaps(start_.travel)) {
       result_.outcome = Outcome::kStartedInCollision;
@@ -68,13 +74,25 @@ class Run {
         result_.outcome = Outcome::kNeverTouched;
         return false;
       }
-      start_.travel = *touch;
-      idle_ = *touch / options_.close_speed;
+      const double lying = start_.table == kNoTable ? 0.0 : kLyingSeconds;
+      CloseFreely(*touch - lying * options_.close_speed);
     }
     engine_.Begin(start_);
     engine_.SetAcceleration(weight_);
     engine_.SetBrake(start_.table == kNoTable);
     return true;
+  }
+
+  // The steps that the jaws would take with nothing in their way, up to this travel.
+  void CloseFreely(double most) {
+    for (double speed = 0.0;;) {
+      speed += options_.time_step * options_.DriveForce(speed) / options_.finger_mass;
+      const double next = start_.travel + options_.time_step * speed;
+      if (!(next <= most)) return;
+      start_.travel = next;
+      start_.speed = speed;
+      idle_ += options_.time_step;
+    }
   }
 
   void Continue() {
@@ -106,15 +124,18 @@ class Run {
   // Closed: both press and all is still, or still held at the end of the time for it.
   bool Close() {
     const double limit = protocol_.close_seconds;
-    double still = 0.0;
-    for (double t = 0.0; t < limit && !broken_; t += options_.time_step) {
+    double still = 0.0, jammed = 0.0;
+    for (double t = idle_; t < limit && !broken_; t += options_.time_step) {
       Step();
       still = Pressed() && Speed() < kStill && std::abs(state_.travel_speed) < kStill
                   ? still + options_.time_step
                   : 0.0;
       if (!early_) continue;
       if (still > kStillSeconds) return true;
-      if (Gone()) return false;
+      // One jaw presses it against the table for good, the other one cannot come.
+      const bool rests = Speed() < kJammed && std::abs(state_.travel_speed) < kJammed;
+      jammed = rests && !Pressed() ? jammed + options_.time_step : 0.0;
+      if (jammed > kJammedSeconds || Gone()) return false;
     }
     return !broken_ && Pressed() && !Met();
   }
@@ -124,7 +145,7 @@ class Run {
     const double limit = protocol_.lift_height / kLiftSpeed + 0.5 * kLiftSpeed / kLiftAcceleration;
     engine_.SetAcceleration(weight_ - kLiftAcceleration * start_.up);
     bool speeding = true;
-    int settled = 0;
+    rest_ = {};
     for (double t = 0.0; t < limit && !broken_; t += options_.time_step) {
       if (speeding && t >= kLiftSpeed / kLiftAcceleration) {
         engine_.SetAcceleration(weight_);
@@ -134,8 +155,7 @@ class Run {
       engine_.SetTable(table_);
       Step();
       Follow();
-      settled = state_.on_table ? 0 : Settled(settled);
-      if (early_ && settled >= kSettledSteps) return true;
+      if (early_ && AtRest()) return true;
       if (early_ && Gone()) return false;
     }
     return !broken_ && Pressed() && !Met();
@@ -145,12 +165,11 @@ class Run {
     for (const Vector3d& direction : stage.directions) {
       if (stage.from_grasp) engine_.Restore();
       engine_.SetAcceleration(AccelerationOf(stage, direction));
-      int settled = 0;
+      rest_ = {};
       for (double t = 0.0; t < stage.seconds && !broken_; t += options_.time_step) {
         Step();
         Follow();
-        settled = Settled(settled);
-        if (early_ && (settled >= kSettledSteps || Gone())) break;
+        if (early_ && (AtRest() || Gone())) break;
         if (early_ && protocol_.rule == HeldRule::kInPlace && !InPlace()) break;
       }
       if (broken_ || !StillHeld()) return held_ = false;
@@ -202,14 +221,21 @@ class Run {
     return Pressed() && !Met() && Move() < kGone;
   }
   bool Gone() const {
-    if (Met()) return true;
-    if (held_) return since_both_ > kLostSeconds || Move() > kGone;
-    // While the jaws close, one of them may push the body away and the other one catch it: it is
-    // gone when it lies still where neither comes.
-    return touched_ && since_any_ > kLostSeconds && Speed() < kStill &&
+    if (Met() || (held_ && Move() > kGone)) return true;
+    // One jaw may push the body away and the other one catch it: it is gone when it is, or while
+    // the jaws close lies still, where neither comes.
+    return touched_ && since_any_ > kLostSeconds && (held_ || Speed() < kStill) &&
            !TravelToTouch(state_.body, state_.travel);
   }
-  int Settled(int steps) const { return state_.sticks && Speed() < kSettled ? steps + 1 : 0; }
+
+  // In the jaws alone, where nothing changes any more: every contact sticks, or the body does not
+  // move. (A contact that has slid bears all that friction can bear when the body rests, too.)
+  bool AtRest() {
+    const bool held = !state_.on_table && state_.press[0] > 0.0 && state_.press[1] > 0.0;
+    rest_.sticking = held && state_.sticks && Speed() < kSettled ? rest_.sticking + 1 : 0;
+    rest_.still = held && Speed() < kResting ? rest_.still + 1 : 0;
+    return rest_.sticking >= kSettledSteps || rest_.still >= kRestingSteps;
+  }
 
   // ---- where the jaws are and come ----
 
@@ -266,7 +292,12 @@ class Run {
   ReplayFn replay_;
   Vector3d weight_;
 
+  struct Rest {
+    int sticking = 0, still = 0;  // steps in a row
+  };
+
   GripState state_;
+  Rest rest_;
   Isometry3d closed_ = Isometry3d::Identity();
   double table_ = start_.table, since_any_ = 0.0, since_both_ = 0.0, deepest_ = 0.0, idle_ = 0.0;
   bool touched_ = false, held_ = false, broken_ = false;

@@ -49,8 +49,8 @@ struct Execution {
 };
 
 enum class Pace {
-  kEarly,  // ends a phase when nothing can change any more: at rest with every contact sticking, or
-           // gone
+  kEarly,  // begins shortly before the first touch, with the jaws at the speed they have there, and
+           // ends a phase when nothing changes any more: at rest, jammed, or gone
   kFixed   // simulates every phase to its end: the straightforward way, to compare with
 };
 
@@ -64,7 +64,7 @@ struct ReplayFrame {
 using ReplayFn = std::function<void(const ReplayFrame&)>;
 
 // The engine holds the body (Load) of the mass that the protocol wants. `start`: the jaws open, the
-// object in its place; `travel` is found here. Deterministic. Some 150 steps an execution.
+// object in its place; `travel` is found here. Deterministic. Some 300 steps an execution.
 Execution Execute(PhysicsEngine* engine, const GrippedBody& body, const PhysicsOptions& options,
                   const Protocol& protocol, GripStart start, Pace pace = Pace::kEarly,
                   const ReplayFn& replay = nullptr);

@@ -188,6 +188,7 @@ class Mujoco final : public PhysicsEngine {
       const int body = model_->geom_bodyid[kFirstTip + tip];
       model_->body_pos[3 * body] = tip == 0 ? -out : out;
       q[kTipPositions + tip] = start.travel;
+      data_->qvel[kTipDofs + tip] = start.speed;
     }
   }
 
@@ -218,7 +219,7 @@ class Mujoco final : public PhysicsEngine {
     // Not a joint's damping: MuJoCo's step takes that in by itself, after the contacts were solved
     // without it, which leaves them four times too soft.
     for (int dof = kTipDofs; dof < kTipDofs + 2; ++dof) {
-      data_->qfrc_applied[dof] = options_.force * (1.0 - data_->qvel[dof] / options_.close_speed);
+      data_->qfrc_applied[dof] = options_.DriveForce(data_->qvel[dof]);
     }
     mj_step(model_.get(), data_.get());
     return State();

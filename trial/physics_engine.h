@@ -28,6 +28,8 @@ struct PhysicsOptions {
   double finger_mass = 1.0;   // kg, each, what its drive adds included
   double table_friction = 0.5;
   double time_step = 0.001;  // s
+  // What a jaw's drive does at this speed, N.
+  double DriveForce(double speed) const { return force * (1.0 - speed / close_speed); }
 };
 void Bind(OptionTable* table, PhysicsOptions* options);  // keys "trial.*"
 
@@ -36,11 +38,12 @@ inline constexpr double kBrake = 12.0, kTurnBrake = 0.0045;
 
 inline constexpr double kNoTable = -std::numeric_limits<double>::infinity();
 
-// How an execution begins: everything is at rest.
+// How an execution begins: everything is at rest but for the jaws.
 struct GripStart {
   Eigen::Isometry3d body = Eigen::Isometry3d::Identity();  // pose of the body
   double opening = 0.05;  // between the fingertips' surfaces when the jaws are open
   double travel = 0.0;    // of each jaw from there
+  double speed = 0.0;     // of each jaw, m/s
   double friction = 0.5;  // between fingertips and body
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // unit, against gravity
   double table = kNoTable;                        // the table is {p : up . p <= table}
