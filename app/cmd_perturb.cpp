@@ -17,7 +17,7 @@
 #include "antigrasp/perturb/perturb_folder.h"
 #include "antigrasp/perturb/perturb_summary.h"
 #include "antigrasp/perturb/random_perturbation.h"
-#include "antigrasp/perturb/search.h"
+#include "antigrasp/perturb/search_choice.h"
 
 namespace antigrasp {
 namespace {
@@ -79,41 +79,38 @@ void AddMethod(CLI::App* perturb, const std::string& name, const std::string& he
   AddOverwrite(command, &flags->overwrite);
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
   AddThreads(command, &flags->threads, "; results do not depend on it");
-  const auto bind = [](OptionTable* table, Options* own, PerturbOptions* common,
-                       SubdivideOptions* fine) {
+  constexpr bool kSearch = std::is_same_v<Options, SearchChoice>;
+  const auto bind = [](OptionTable* table, Options* own, PerturbSettings* settings) {
     Bind(table, own);
-    if (!std::is_same_v<Options, SearchOptions>) Bind(table, common);
-    Bind(table, fine);
+    if (!kSearch) Bind(table, &settings->common);
+    Bind(table, &settings->subdivide);
   };
   Options default_own;
-  PerturbOptions default_common;
+  PerturbSettings default_settings{.subdivide = subdivide};
   OptionTable defaults;
-  SubdivideOptions default_subdivide = subdivide;
-  bind(&defaults, &default_own, &default_common, &default_subdivide);
+  bind(&defaults, &default_own, &default_settings);
   const OptionFlags own_flags(command, defaults, "Perturbation");
   const auto metric_flags = std::make_shared<MetricFlags>(command);
   command->callback([flags, own_flags, metric_flags, bind, subdivide, run] {
     Options own;
-    PerturbSettings settings;
-    settings.subdivide = subdivide;
-    OptionTable table;
-    bind(&table, &own, &settings.common, &settings.subdivide);
+    PerturbSettings settings{.subdivide = subdivide};
+    OptionTable table, used;
+    bind(&table, &own, &settings);
     own_flags.Apply(&table);
     RequireSubdivision(settings.subdivide, "--subdivide");
     settings.metric = metric_flags->Resolve();
     settings.seed = flags->seed;
-    settings.method = [own, metric = settings.metric, run](
-                          const TriangleMesh& mesh, const PairLimits& pairs,
-                          const PerturbOptions& common, RngStream* rng,
-                          const ProgressFn& progress) {
-      if constexpr (std::is_same_v<Options, SearchOptions>) {
-        return run(mesh, metric, own, rng, progress);
-      } else {
-        return run(mesh, pairs, common, own, rng, progress);
-      }
-    };
-    Bind(&table, &settings.metric);
-    Perturb(*flags, settings, "seed = " + std::to_string(flags->seed) + "\n\n" + table.Dump(),
+    if constexpr (kSearch) {
+      RequireUsed(own, [&](const std::string& key) { return own_flags.Typed(key); });
+      UseSearch(own, flags->threads, &settings);
+      BindUsed(&used, &own);
+      Bind(&used, &settings.subdivide);
+    } else {
+      settings.method = Bound(run, own);
+      used = table;
+    }
+    Bind(&used, &settings.metric);
+    Perturb(*flags, settings, "seed = " + std::to_string(flags->seed) + "\n\n" + used.Dump(),
             metric_flags->gripper());
   });
 }
@@ -134,9 +131,10 @@ void AddPerturbCommand(CLI::App* app) {
   AddMethod<RotationOptions>(perturb, "rotation",
                              "IV-C: decimate, then turn the faces of sampled pairs apart",
                              SubdivideOptions{kAsItIs}, PerturbByRotation);
-  AddMethod<SearchOptions>(perturb, "search",
-                           "beyond the paper: descent on the metric, normals kept within alpha",
-                           SubdivideOptions{0.0}, PerturbBySearch);
+  AddMethod<SearchChoice>(perturb, "search",
+                          "beyond the paper: descent on the metric, normals kept within alpha, or "
+                          "search on a judge (--objective) within budgets",
+                          SubdivideOptions{0.0}, nullptr);
 }
 
 }  // namespace antigrasp

@@ -27,6 +27,9 @@ PerturbRow RowOf(const std::string& object, const std::string& status,
     row.volume_change_pct = scored.change.volume_change;
     row.center_of_mass_pct = scored.change.center_of_mass;
   }
+  row.judge = scored.judge;
+  row.judge_before = scored.judge_before;
+  row.judge_after = scored.judge_after;
   const auto& refused = scored.result.refused;
   row.iterations = CountOrGap(scored.result.iterations);
   row.moved = CountOrGap(scored.result.moved);

@@ -35,7 +35,8 @@ std::vector<PerturbRow> PairsOf(const std::vector<ScoreRow>& scores) {
 }
 
 PerturbMeans MeansOf(const std::vector<PerturbRow>& rows) {
-  std::vector<double> before, after, turn, hausdorff, volume;
+  std::vector<double> before, after, turn, hausdorff, volume, judged_before, judged_after, change;
+  std::string judge;
   for (const PerturbRow& row : rows) {
     if (row.status != "ok") continue;
     before.push_back(row.graspability_before);
@@ -43,6 +44,12 @@ PerturbMeans MeansOf(const std::vector<PerturbRow>& rows) {
     turn.push_back(row.normal_max_deg);
     hausdorff.push_back(row.hausdorff_pct);
     volume.push_back(std::abs(row.volume_change_pct));
+    if (row.judge.empty()) continue;
+    judge = row.judge;
+    if (std::isnan(row.judge_before) || std::isnan(row.judge_after)) continue;
+    judged_before.push_back(row.judge_before);
+    judged_after.push_back(row.judge_after);
+    change.push_back(row.judge_after - row.judge_before);
   }
   const auto mean = [](const std::vector<double>& values) { return MeanWithInterval(values).mean; };
   return {.objects = static_cast<int>(rows.size()),
@@ -52,19 +59,61 @@ PerturbMeans MeansOf(const std::vector<PerturbRow>& rows) {
           .reduction = KappaReduction(before, after),
           .normal_max_deg = mean(turn),
           .hausdorff_pct = mean(hausdorff),
-          .volume_pct = mean(volume)};
+          .volume_pct = mean(volume),
+          .judge = judge,
+          .judge_before = mean(judged_before),
+          .judge_after = mean(judged_after),
+          .judge_difference = MeanWithInterval(change)};
 }
 
 std::string PerturbMeansCsv(const PerturbMeans& means) {
-  CsvWriter csv({"objects", "ok", "graspability_before", "graspability_after", "reduction_pct",
-                 "reduction_half_width_95", "normal_max_deg", "hausdorff_pct", "volume_pct"});
+  std::vector<std::string> names = {"objects",
+                                    "ok",
+                                    "graspability_before",
+                                    "graspability_after",
+                                    "reduction_pct",
+                                    "reduction_half_width_95",
+                                    "normal_max_deg",
+                                    "hausdorff_pct",
+                                    "volume_pct"};
+  const bool judged = !means.judge.empty();
+  if (judged) {
+    names.insert(names.end(), {"judge", "judge_before", "judge_after", "judge_difference",
+                               "judge_difference_half_width_95"});
+  }
+  CsvWriter csv(names);
   csv.Count(means.objects).Count(means.ok);
   csv.NumbersOrGaps({means.graspability_before, means.graspability_after, means.reduction.mean,
                      means.reduction.half_width, means.normal_max_deg, means.hausdorff_pct,
                      means.volume_pct});
+  if (judged) {
+    csv.Text(means.judge)
+        .NumbersOrGaps({means.judge_before, means.judge_after, means.judge_difference.mean,
+                        means.judge_difference.half_width});
+  }
   csv.EndRow();
   return csv.text();
 }
+
+namespace {
+
+// "\njudge trial:six-ways, 12 objects: 0.7432 -> 0.4123, difference -0.3309 +-0.0612"; "" without.
+std::string JudgeMeansText(const PerturbMeans& means) {
+  if (means.judge.empty()) return "";
+  const std::string who = "\njudge " + means.judge + ", ";
+  const MeanInterval& difference = means.judge_difference;
+  if (difference.count == 0) return who + "no object scored before and after";
+  char text[160], interval[32] = "";
+  if (std::isfinite(difference.half_width)) {
+    std::snprintf(interval, sizeof interval, " +-%.4f", difference.half_width);
+  }
+  std::snprintf(text, sizeof text, "%d of %d objects: %.4f -> %.4f, difference %+.4f%s",
+                static_cast<int>(difference.count), means.ok, means.judge_before, means.judge_after,
+                difference.mean, interval);
+  return who + text;
+}
+
+}  // namespace
 
 std::string PerturbMeansText(const PerturbMeans& means) {
   if (means.ok == 0) return "no object perturbed";
@@ -83,7 +132,7 @@ std::string PerturbMeansText(const PerturbMeans& means) {
                 "%% of the diagonal",
                 means.ok, means.objects, means.graspability_before, means.graspability_after,
                 reduced, means.normal_max_deg, means.hausdorff_pct);
-  return text;
+  return text + JudgeMeansText(means);
 }
 
 std::string ScoreMeansText(const PerturbMeans& means) {

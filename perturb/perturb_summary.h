@@ -18,6 +18,9 @@ struct PerturbMeans {
   double normal_max_deg = std::nan("");  // means over objects: of an object's largest turn,
   double hausdorff_pct = std::nan("");   // of its distance, percent of the diagonal,
   double volume_pct = std::nan("");      // of the size of its change of volume, percent
+  std::string judge;                     // of a search on a judge: means over what it scored twice
+  double judge_before = std::nan(""), judge_after = std::nan("");
+  MeanInterval judge_difference;  // after - before, paired
 };
 
 // A table of scores as one of objects before and after: with originals (evaluate --baseline) it is.

@@ -1,5 +1,6 @@
 #include "antigrasp/perturb/perturb_table.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "antigrasp/core/atomic_file.h"
@@ -19,6 +20,9 @@ void AppendCount(double count, CsvWriter* csv) {
 std::string PerturbCsv(const std::vector<PerturbRow>& rows) {
   std::vector<std::string> names = {"object", "status"};
   for (const PerturbColumn& column : kPerturbColumns) names.push_back(column.name);
+  const bool judged = std::any_of(rows.begin(), rows.end(),
+                                  [](const PerturbRow& row) { return !row.judge.empty(); });
+  if (judged) names.insert(names.end(), {"judge", "judge_before", "judge_after"});
   CsvWriter csv(names);
   for (const PerturbRow& row : rows) {
     csv.Text(row.object).Text(row.status);
@@ -29,6 +33,7 @@ std::string PerturbCsv(const std::vector<PerturbRow>& rows) {
         csv.NumberOrGap(row.*column.value);
       }
     }
+    if (judged) csv.Text(row.judge).NumbersOrGaps({row.judge_before, row.judge_after});
     csv.EndRow();
   }
   return csv.text();
@@ -46,6 +51,9 @@ std::vector<PerturbRow> ReadPerturbTable(const std::filesystem::path& path) {
       const auto at = csv.Column(column.name);
       if (at) row.*column.value = csv.NumberOrGap(*at);
     }
+    if (const auto judge = csv.Column("judge")) row.judge = csv.Field(*judge);
+    if (const auto before = csv.Column("judge_before")) row.judge_before = csv.NumberOrGap(*before);
+    if (const auto after = csv.Column("judge_after")) row.judge_after = csv.NumberOrGap(*after);
     rows.push_back(std::move(row));
   }
   return rows;

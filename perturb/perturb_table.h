@@ -20,6 +20,8 @@ struct PerturbRow {
   double volume_change_pct = std::nan(""), center_of_mass_pct = std::nan("");
   double iterations = std::nan(""), moved = std::nan("");
   double no_gain = std::nan(""), refused = std::nan("");
+  std::string judge = {};  // of a search on a judge
+  double judge_before = std::nan(""), judge_after = std::nan("");
 };
 
 // The columns behind object and status, in the order of the file.
@@ -48,6 +50,7 @@ inline constexpr std::array<PerturbColumn, 17> kPerturbColumns = {{
     {"refused", &PerturbRow::refused, true},
 }};
 
+// With the columns judge, judge_before and judge_after when a row has a judge.
 std::string PerturbCsv(const std::vector<PerturbRow>& rows);
 
 // InputError with file:line for a damaged table or one without object, status and both

@@ -24,12 +24,23 @@ std::string WhyNothingMoved(const PerturbResult& result) {
   return "unchanged: too few vertices: " + std::to_string(result.start.vertices.size());
 }
 
+// Under the draws of the object's own stream, which no search on this judge has seen.
+void JudgeBoth(std::uint64_t object, JudgePool* judges, ScoredPerturbation* out) {
+  const JudgePool::Lease judge(judges);
+  const std::vector<Verdict> verdicts =
+      judge->Score({{"before", &out->before, object}, {"after", &out->result.mesh, object}});
+  out->judge = judge->Name();
+  out->judge_before = verdicts[0].score.value_or(kNaN);
+  out->judge_after = verdicts[1].score.value_or(kNaN);
+}
+
 // Of an object that lies about the origin.
 ScoredPerturbation AboutTheOrigin(const TriangleMesh& given, const PerturbSettings& settings,
                                   std::uint64_t object, const ProgressFn& progress) {
   using Clock = std::chrono::steady_clock;
   ScoredPerturbation out;
   out.graspability_before = out.graspability_after = kNaN;
+  out.judge_before = out.judge_after = kNaN;
   out.normals = {kNaN, kNaN};
   out.change = {kNaN, kNaN, kNaN, kNaN};
   out.result.failure = WhyNotPrintable(given);
@@ -53,6 +64,9 @@ ScoredPerturbation AboutTheOrigin(const TriangleMesh& given, const PerturbSettin
   out.pairs_after = CountAntipodalPairs(out.result.mesh, pairs);
   out.graspability_after =
       ValueOf(EvaluateGraspability(out.result.mesh, settings.metric, settings.seed, object));
+  if (settings.judges && out.result.failure.empty()) {
+    JudgeBoth(object, settings.judges.get(), &out);
+  }
   out.normals = CompareNormals(out.result.start, out.result.mesh);
   out.change = CompareMeshes(out.before, out.result.mesh);
   return out;

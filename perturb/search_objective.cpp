@@ -189,6 +189,35 @@ SmoothPercentile EvaluateObjective(const std::vector<AttackGrasp>& grasps,
   return result;
 }
 
+MeanHold EvaluateMeanHold(const std::vector<AttackGrasp>& grasps,
+                          const std::vector<Vector3d>& normals, const MetricOptions& metric,
+                          const ObjectiveOptions& options) {
+  MeanHold result;
+  result.by_normal.assign(normals.size(), Vector3d::Zero());
+  const Friction planned{metric.friction, options.acceptance_softness};
+  const Friction executed{metric.friction, std::hypot(metric.friction_std, options.slip_softness)};
+  std::vector<Weighted> values;
+  double weight = 0.0;
+  for (const AttackGrasp& grasp : grasps) {
+    double sum = 0.0;
+    for (const Closing& c : grasp.executed) sum += Holds(c, normals, executed);
+    values.push_back({sum / options.draws, Holds(grasp.planned, normals, planned)});
+    weight += values.back().weight;
+    result.value += values.back().weight * values.back().quality;
+  }
+  if (!(weight > 0.0)) return result;
+  result.value /= weight;
+  for (std::size_t i = 0; i < grasps.size(); ++i) {
+    const double by_hold = values[i].weight / weight / options.draws;
+    for (const Closing& c : grasps[i].executed) {
+      AddDerivative(c, normals, executed, by_hold, &result.by_normal);
+    }
+    AddDerivative(grasps[i].planned, normals, planned, (values[i].quality - result.value) / weight,
+                  &result.by_normal);
+  }
+  return result;
+}
+
 std::vector<Vector3d> DerivativeByVertices(const TriangleMesh& mesh,
                                            const std::vector<Vector3d>& by_normal) {
   std::vector<Vector3d> by_vertex(mesh.vertices.size(), Vector3d::Zero());

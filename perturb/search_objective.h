@@ -62,6 +62,18 @@ SmoothPercentile EvaluateObjective(const std::vector<AttackGrasp>& grasps,
                                    const std::vector<Eigen::Vector3d>& normals,
                                    const MetricOptions& metric, const ObjectiveOptions& options);
 
+// What physics decides first: whether a grasp slips. With the above and round cones,
+//   H_i      mean over the draws of S(larger tangent of the two contacts)
+//   value    sum w_i H_i / sum w_i, the share of executions that hold, 0 to 1
+// Derivative as above. 0 without grasps.
+struct MeanHold {
+  double value = 0.0;
+  std::vector<Eigen::Vector3d> by_normal;  // one per face
+};
+MeanHold EvaluateMeanHold(const std::vector<AttackGrasp>& grasps,
+                          const std::vector<Eigen::Vector3d>& normals, const MetricOptions& metric,
+                          const ObjectiveOptions& options);
+
 // The chain rule: derivative by the vertices from that by the unit normals of the faces.
 std::vector<Eigen::Vector3d> DerivativeByVertices(const TriangleMesh& mesh,
                                                   const std::vector<Eigen::Vector3d>& by_normal);

@@ -52,6 +52,43 @@ ObjectiveOptions Softness() {
   return options;
 }
 
+TEST(MeanHold, IsTheShareThatHoldsWeighedByWhatIsPlanned) {
+  const std::vector<Vector3d> normals = NormalsWith({0.1, 0.45, 0.5, 0.2});
+  AttackGrasp first, second;
+  first.planned = On(0, 1, 1.0);
+  first.executed = {On(0, 1, 0.9), On(0, 3, 0.5),
+                    On(2, 3, 0.7)};  // of four draws; how far counts not
+  second.planned = On(2, 3, 1.0);
+  second.executed = {On(2, 1, 1.0)};
+  // Friction 0.6; planned over 0.05, executed over hypot(0.08, 0.06) = 0.1.
+  const double h1 = (Phi(1.5) + Phi(4.0) + Phi(1.0)) / 4.0, h2 = Phi(1.0) / 4.0;
+  const double w1 = Phi(3.0), w2 = Phi(2.0);
+  EXPECT_NEAR(EvaluateMeanHold({first, second}, normals, Metric(), Softness()).value,
+              (w1 * h1 + w2 * h2) / (w1 + w2), 1e-12);
+  EXPECT_EQ(EvaluateMeanHold({}, normals, Metric(), Softness()).value, 0.0);
+}
+
+TEST(MeanHold, ItsDerivativeIsThatOfDifferences) {
+  std::vector<Vector3d> normals = NormalsWith({0.1, 0.45, 0.5, 0.2});
+  AttackGrasp first, second;
+  first.planned = On(0, 1, 1.0);
+  first.executed = {On(0, 1, 0.9), On(0, 3, 0.5), On(2, 3, 0.7)};
+  second.planned = On(2, 3, 1.0);
+  second.executed = {On(2, 1, 1.0)};
+  const MeanHold hold = EvaluateMeanHold({first, second}, normals, Metric(), Softness());
+  for (std::size_t f = 0; f < normals.size(); ++f) {
+    const Vector3d side = normals[f].cross(Vector3d::UnitZ()), normal = normals[f];
+    const auto at = [&](double angle) {
+      normals[f] = std::cos(angle) * normal + std::sin(angle) * side;
+      return EvaluateMeanHold({first, second}, normals, Metric(), Softness()).value;
+    };
+    const double slope = (at(1e-6) - at(-1e-6)) / 2e-6;
+    normals[f] = normal;
+    EXPECT_NEAR(hold.by_normal[f].dot(side), slope, 1e-7) << f;
+    EXPECT_EQ(slope == 0.0, f == 0) << f;  // whose contact is never the steeper one
+  }
+}
+
 TEST(Objective, OfOneGraspIsItsMeanOverAllDrawsAtTheLargerTangent) {
   const std::vector<Vector3d> normals = NormalsWith({0.1, 0.45, 0.5, 0.2});
   AttackGrasp grasp;

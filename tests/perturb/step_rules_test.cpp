@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-PerturbResult Perturbed(const TriangleMesh& mesh, const RandomPerturbOptions& options,
-                        std::uint64_t seed = 1) {
+PerturbResult Stepped(const TriangleMesh& mesh, const RandomPerturbOptions& options,
+                      std::uint64_t seed = 1) {
   RngStream rng(seed, "perturb");
   return PerturbRandomly(mesh, {}, {}, options, &rng);
 }
@@ -96,12 +96,12 @@ TEST(PerturbRandomly, HardlyAnyStepIsTakenBackBecauseItWasMeasuredByOtherNormals
   RandomPerturbOptions options;
   options.iterations = 1500;
   const TriangleMesh mesh = shapes::Cylinder(1.0, 3.0, 24);
-  const PerturbResult original = Perturbed(mesh, options);
+  const PerturbResult original = Stepped(mesh, options);
   EXPECT_GT(original.moved, 100);
   EXPECT_LE(Refused(original, MoveVerdict::kTurned), original.moved / 100);
   EXPECT_LE(CompareNormals(original.start, original.mesh).largest, 10.0 + 1e-9);
   options.limit = NormalLimit::kStep;
-  const PerturbResult step = Perturbed(mesh, options);
+  const PerturbResult step = Stepped(mesh, options);
   EXPECT_GT(step.moved, 100);
   EXPECT_EQ(Refused(step, MoveVerdict::kTurned), 0);  // nothing is measured by the original
   EXPECT_LE(Refused(step, MoveVerdict::kInverted), step.moved / 100);
@@ -122,7 +122,7 @@ TEST(PerturbRandomly, OneStepTurnsNoFaceByMoreThanAlphaAndOneByAllOfIt) {
     options.alpha = 12.0;
     options.step = StepRule::kLargest;
     options.iterations = 1;
-    const PerturbResult result = Perturbed(shapes::Cube(), options, seed);
+    const PerturbResult result = Stepped(shapes::Cube(), options, seed);
     const double turned = CompareNormals(result.start, result.mesh).largest;
     EXPECT_LE(turned, 12.0);
     at_alpha += turned > 11.97 ? 1 : 0;
@@ -140,7 +140,7 @@ TEST(PerturbRandomly, TheRuleDecidesWhichOfTheSameStepsIsTaken) {
       RandomPerturbOptions options;
       options.step = rule;
       options.iterations = 1;
-      return Perturbed(mesh, options, seed);
+      return Stepped(mesh, options, seed);
     };
     const double smallest = LargestMove(move(StepRule::kSmallest)),
                  largest = LargestMove(move(StepRule::kLargest));
@@ -164,10 +164,10 @@ TEST(PerturbRandomly, TheLongestStepIsInMeanEdgesAndIterationsInVertices) {
   options.step = StepRule::kLargest;
   options.iterations = 1;
   const double longest = 0.01 * (2.0 + std::sqrt(2.0)) / 3.0;
-  EXPECT_NEAR(LargestMove(Perturbed(shapes::Cube(), options)), longest, 1e-6);
+  EXPECT_NEAR(LargestMove(Stepped(shapes::Cube(), options)), longest, 1e-6);
   options.iterations = 0;
   options.iterations_per_vertex = 2.5;
-  EXPECT_EQ(Perturbed(shapes::Cube(), options).iterations, 20);
+  EXPECT_EQ(Stepped(shapes::Cube(), options).iterations, 20);
 }
 
 TEST(Validity, TheMeanEdgeIsOverAllSidesOfAllFaces) {
