@@ -25,6 +25,7 @@ NUMBERS = {
     "the same, balls of 5 mm at their first contacts": ("mean", ("--contact", "sphere")),
     "**settled**, balls": ("graspability", ("--preset", "settled")),
     "settled, pads": ("graspability", ("--preset", "settled", "--contact", "pad")),
+    "settled, balls, 400 grasps": ("graspability", ("--preset", "settled", "--num-grasps", 400, "--max-attempts", 16000)),
 }
 
 
