@@ -99,8 +99,10 @@ std::string IntervalText(const Graspability& score) {
 
 std::string MeanScoreText(const std::vector<double>& scores, const MetricOptions& metric) {
   const MeanInterval mean = MeanWithInterval(scores);
+  const char* const what = metric.closing == ClosingEnd::kSettled ? "mean share held when settled "
+                                                                  : "mean graspability ";
   return std::to_string(mean.count) + " objects scored, " +
-         std::to_string(static_cast<int>(scores.size()) - mean.count) + " not: mean graspability " +
+         std::to_string(static_cast<int>(scores.size()) - mean.count) + " not: " + what +
          Formatted("%.5f", mean.mean) + HalfWidth(" +-%.5f (95 %%)", mean.half_width) + ", " +
          SizeText(metric);
 }

@@ -24,7 +24,7 @@ NUMBERS = {
     "mean of robust epsilon": ("mean", ()),
     "the same, balls of 5 mm at their first contacts": ("mean", ("--contact", "sphere")),
     "**settled**, balls": ("graspability", ("--preset", "settled")),
-    "settled, pads": ("graspability", ("--preset", "settled", "--contact", "pad")),
+    "settled, pads (the trials are of balls)": ("graspability", ("--preset", "settled", "--contact", "pad")),
     "settled, balls, 400 grasps": ("graspability", ("--preset", "settled", "--num-grasps", 400, "--max-attempts", 16000)),
 }
 

@@ -36,7 +36,8 @@ TEST(SplitOf, SharesAreExactAndAnObjectKeepsItsPlaceInAnyOrder) {
     streams.push_back(StreamOf(names.back()));
   }
   const std::vector<std::string> splits = SplitOf(names, streams, 0.7, 0.1, 5);
-  EXPECT_EQ(CountsOf(splits), (std::map<std::string, int>{{"test", 10}, {"train", 35}, {"val", 5}}));
+  EXPECT_EQ(CountsOf(splits),
+            (std::map<std::string, int>{{"test", 10}, {"train", 35}, {"val", 5}}));
   EXPECT_NE(SplitOf(names, streams, 0.7, 0.1, 6), splits);
   std::reverse(names.begin(), names.end());
   std::reverse(streams.begin(), streams.end());
@@ -45,8 +46,8 @@ TEST(SplitOf, SharesAreExactAndAnObjectKeepsItsPlaceInAnyOrder) {
   EXPECT_EQ(turned, splits);
   const auto few = [&](std::size_t count, double train, double val) {
     return CountsOf(SplitOf({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count)},
-                          {streams.begin(), streams.begin() + static_cast<std::ptrdiff_t>(count)},
-                          train, val, 5));
+                            {streams.begin(), streams.begin() + static_cast<std::ptrdiff_t>(count)},
+                            train, val, 5));
   };
   using Count = std::map<std::string, int>;
   EXPECT_EQ(few(3, 0.8, 0.1), (Count{{"test", 1}, {"train", 1}, {"val", 1}}));
