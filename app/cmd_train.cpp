@@ -10,6 +10,7 @@
 #include "antigrasp/app/flags.h"
 #include "antigrasp/app/network_commands.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/judge/make_judge.h"
 #include "antigrasp/train/run_request.h"
 
 namespace antigrasp {
@@ -39,13 +40,22 @@ void TakeConfigFromSettings(RunRequest* flags) {
   flags->overrides.erase(config);
 }
 
+// Of a run whose cem.score is not the metric's.
+std::unique_ptr<Judge> JudgeOf(const RunConfig& config) {
+  constexpr std::string_view kProgram = "judge:";
+  std::string name = config.cem.score;
+  if (name.starts_with(kProgram)) name.erase(0, kProgram.size());
+  return MakeJudge(
+      name, {config.metric, AtEqualMass(), {}, config.seed, config.threads, &ThrowIfInterrupted});
+}
+
 RunResult Start(const TrainFlags& flags, RunObserver* console) {
   const RunConfig config = ConfigOf(flags.run);
   WarnOfLengths(config.metric);
   const OldRun old_run = flags.overwrite   ? OldRun::kReplace
                          : flags.or_resume ? OldRun::kGoOn
                                            : OldRun::kRefuse;
-  return StartRun(config, flags.out, old_run, console);
+  return StartRun(config, flags.out, old_run, console, &JudgeOf);
 }
 
 void Train(const TrainFlags& flags) {
@@ -61,8 +71,9 @@ void Train(const TrainFlags& flags) {
   ConsoleObserver console;
   const std::string folder = flags.resume.empty() ? flags.out : flags.resume;
   try {
-    const RunResult result =
-        flags.resume.empty() ? Start(flags, &console) : ResumeRun(flags.resume, &console);
+    const RunResult result = flags.resume.empty()
+                                 ? Start(flags, &console)
+                                 : ResumeRun(flags.resume, &console, MakeGan, &JudgeOf);
     std::printf("%s", StatisticsTable(result.stages, result.control).c_str());
     std::printf("run: %s\n", folder.c_str());
     const RunFolder run{folder};

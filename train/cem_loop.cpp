@@ -17,6 +17,12 @@ StageScorer GraspabilityScorer(const RunConfig& config, RunObserver* observer) {
   };
 }
 
+StageScorer JudgedScorer(const RunConfig& config, Judge* judge, RunObserver* observer) {
+  return [&config, judge, observer](const torch::Tensor& values, const std::string& name) {
+    return ScoreStageBy(judge, values, config, observer->Phase(name));
+  };
+}
+
 CemLoop::CemLoop(const RunConfig& config, ShapeModel* model, torch::Tensor prior,
                  StageScorer scorer, RunObserver* observer)
     : config_(config),

@@ -21,6 +21,9 @@ using StageScorer =
 // ScoreStage: the graspability of the paper.
 StageScorer GraspabilityScorer(const RunConfig& config, RunObserver* observer);
 
+// By a judge, which must stay as long as the scorer (ScoreStageBy).
+StageScorer JudgedScorer(const RunConfig& config, Judge* judge, RunObserver* observer);
+
 // A finished episode: its samples scored, what the next one would train on, its row of statistics.
 struct Episode {
   ScoredStage scored;

@@ -9,6 +9,7 @@
 #include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/train/cem_loop.h"
 #include "antigrasp/train/episode_loop.h"
 #include "antigrasp/train/provenance.h"
 #include "antigrasp/train/run_lock.h"
@@ -105,19 +106,32 @@ void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder&
   WriteFileAtomic(control.Config(), checkpoint.config);
 }
 
+// nullptr: the graspability scores.
+std::unique_ptr<Judge> JudgeFor(const RunConfig& config, const JudgeMaker& make_judge) {
+  if (config.cem.score == kEpsilonScore) return nullptr;
+  if (make_judge) return make_judge(config);
+  throw InputError("no judge for cem.score = " + config.cem.score, "configuration", kEpsilonScore);
+}
+
 RunResult Finish(const RunConfig& config, const RunFolder& folder, const torch::Tensor& prior,
-                 ProvenanceRecorder* recorder, const ShapeModelMaker& make) {
+                 ProvenanceRecorder* recorder, const ShapeModelMaker& make, Judge* judge) {
+  const auto scorer = [&](const RunConfig& of) {
+    return judge != nullptr ? JudgedScorer(of, judge, recorder) : GraspabilityScorer(of, recorder);
+  };
   RunResult result;
-  result.stages = RunEpisodes(config, folder, make(config).get(), prior, recorder);
+  result.stages = RunEpisodes(config, folder, make(config).get(), prior, scorer(config), recorder);
   if (config.cem.control) {
     const RunFolder control{folder.Control()};
     const RunLock lock(control);
     if (!control.HoldsARun()) ForkControl(config, folder, control);
     spdlog::info("control run: the same retraining on elites drawn at random");
     const RunConfig forked = ConfigOfRun(control.root);
-    result.control = RunEpisodes(forked, control, make(forked).get(), prior, recorder);
+    result.control =
+        RunEpisodes(forked, control, make(forked).get(), prior, scorer(forked), recorder);
   }
   recorder->Finish();
+  if (judge == nullptr) return result;
+  for (const std::string& note : judge->Notes()) spdlog::warn("judge: {}", note);
   return result;
 }
 
@@ -132,19 +146,20 @@ RunConfig ConfigOfRun(const fs::path& folder) {
 }
 
 RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver* observer,
-                   const ShapeModelMaker& make) {
+                   const ShapeModelMaker& make, const JudgeMaker& make_judge) {
   const RunFolder run{folder};
   RequireNoRun(run);
   Validate(config, "configuration");
   RequireFittingStart(config);
   make(config);  // refuses a device that is not there, first
+  const std::unique_ptr<Judge> judge = JudgeFor(config, make_judge);
   const RunLock lock(run);
   RequireNoRun(run);   // that another process has begun and left
   MakeFolder(folder);  // it is there: refuses one that cannot be written to, before the work
   ProvenanceRecorder recorder(run, ProvenanceNow(config), observer);
   const torch::Tensor prior = MakePrior(config, run, &recorder);
   WriteFileAtomic(run.Config(), ToToml(config));
-  return Finish(config, run, prior, &recorder, make);
+  return Finish(config, run, prior, &recorder, make, judge.get());
 }
 
 void RequireInputs(const RunConfig& config, const fs::path& folder) {
@@ -163,14 +178,16 @@ void RequireInputs(const RunConfig& config, const fs::path& folder) {
   if (!config.start.empty()) require_outside(FindNetworks(config.start));
 }
 
-RunResult ResumeRun(const fs::path& folder, RunObserver* observer, const ShapeModelMaker& make) {
+RunResult ResumeRun(const fs::path& folder, RunObserver* observer, const ShapeModelMaker& make,
+                    const JudgeMaker& make_judge) {
   const RunFolder run{folder};
   const RunConfig config = ConfigOfRun(folder);
+  const std::unique_ptr<Judge> judge = JudgeFor(config, make_judge);
   const RunLock lock(run);
   ProvenanceRecorder recorder(run, ReadProvenance(run), observer);
   const torch::Tensor prior =
       NetworkValuesOf(ReadShapeSet(run.Prior()), config.model, run.Prior().string());
-  return Finish(config, run, prior, &recorder, make);
+  return Finish(config, run, prior, &recorder, make, judge.get());
 }
 
 }  // namespace antigrasp

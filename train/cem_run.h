@@ -1,9 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "antigrasp/core/observer.h"
+#include "antigrasp/quality/judge.h"
 #include "antigrasp/train/make_gan.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_folder.h"
@@ -17,6 +20,9 @@ struct RunResult {
   std::vector<StageStatistics> control;
 };
 
+// Who scores the samples of a run whose cem.score is not "epsilon"; made before the work begins.
+using JudgeMaker = std::function<std::unique_ptr<Judge>(const RunConfig&)>;
+
 // The CEM + GAN algorithm (V-B, VI-C): train the GAN on the prior set, then repeatedly sample,
 // remesh, reject, score, keep the least graspable and retrain. `make` puts another shape model in
 // the GAN's place. Every file lands in `folder`, every step of it can be interrupted and resumed
@@ -24,9 +30,10 @@ struct RunResult {
 // InputError: the folder already holds a run, another process trains it (train/run_lock.h), the
 // prior file is unusable, or config.start has networks of another model or, without
 // config.fine_tune, of another prior set. Interrupted: state saved. RuntimeFailure: non-finite
-// losses or no usable sample; the last checkpoint is intact.
+// losses, no usable sample or a judge that stopped; the last checkpoint is intact.
 RunResult StartRun(const RunConfig& config, const std::filesystem::path& folder,
-                   RunObserver* observer, const ShapeModelMaker& make = MakeGan);
+                   RunObserver* observer, const ShapeModelMaker& make = MakeGan,
+                   const JudgeMaker& make_judge = nullptr);
 
 // What StartRun refuses of its inputs, for those who make room for a run first: InputError when the
 // prior file or the networks to begin with are missing, do not fit or lie in `folder`.
@@ -34,9 +41,9 @@ void RequireInputs(const RunConfig& config, const std::filesystem::path& folder)
 
 // Goes on where the folder's last checkpoint stands; a finished run only reports its numbers. What
 // a killed process left half written is removed. InputError: another process trains the run.
-// `make`: as the run was started with.
+// `make`, `make_judge`: as the run was started with.
 RunResult ResumeRun(const std::filesystem::path& folder, RunObserver* observer,
-                    const ShapeModelMaker& make = MakeGan);
+                    const ShapeModelMaker& make = MakeGan, const JudgeMaker& make_judge = nullptr);
 
 // The configuration the run in `folder` was started with. InputError when there is none.
 RunConfig ConfigOfRun(const std::filesystem::path& folder);

@@ -31,7 +31,7 @@ constexpr int kRecordEvery = 10;  // updates between rows of losses.csv
 class FolderLoop {
  public:
   FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeModel* model,
-             const torch::Tensor& prior, RunObserver* observer);
+             const torch::Tensor& prior, StageScorer scorer, RunObserver* observer);
   std::vector<StageStatistics> Run();
 
  private:
@@ -63,12 +63,12 @@ class FolderLoop {
 };
 
 FolderLoop::FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeModel* model,
-                       const torch::Tensor& prior, RunObserver* observer)
+                       const torch::Tensor& prior, StageScorer scorer, RunObserver* observer)
     : config_(config),
       folder_(folder),
       model_(model),
       observer_(observer),
-      loop_(config, model, prior, GraspabilityScorer(config, observer), observer),
+      loop_(config, model, prior, std::move(scorer), observer),
       losses_{model->ScalarNames(), {}} {}
 
 std::vector<StageStatistics> FolderLoop::Run() {
@@ -227,8 +227,8 @@ void FolderLoop::Save(const fs::path& path, bool finished) const {
 
 std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolder& folder,
                                          ShapeModel* model, const torch::Tensor& prior,
-                                         RunObserver* observer) {
-  return FolderLoop(config, folder, model, prior, observer).Run();
+                                         StageScorer scorer, RunObserver* observer) {
+  return FolderLoop(config, folder, model, prior, std::move(scorer), observer).Run();
 }
 
 }  // namespace antigrasp

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "antigrasp/core/observer.h"
+#include "antigrasp/train/cem_loop.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_folder.h"
 #include "antigrasp/train/shape_model.h"
@@ -13,10 +14,11 @@
 namespace antigrasp {
 
 // Runs the episodes of the run in `folder` from its last checkpoint (or the beginning) to the end,
-// with a fresh `model`. The folder holds config.toml and prior.h5, whose network values are
-// `prior`. Returns the rows of statistics.csv. InputError: the checkpoint is another model's.
+// with a fresh `model`, whose samples `scorer` scores. The folder holds config.toml and prior.h5,
+// whose network values are `prior`. Returns the rows of statistics.csv. InputError: the checkpoint
+// is another model's.
 std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolder& folder,
                                          ShapeModel* model, const torch::Tensor& prior,
-                                         RunObserver* observer);
+                                         StageScorer scorer, RunObserver* observer);
 
 }  // namespace antigrasp

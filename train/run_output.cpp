@@ -121,8 +121,13 @@ void ExportLeastGraspable(const ScoredStage& scored, const RunConfig& config,
   const auto stream = [&](std::int64_t rank) {
     return static_cast<std::uint64_t>(worst[static_cast<std::size_t>(rank)]);
   };
-  const std::vector<Graspability> again = ScoreAll(std::ssize(worst), mesh, stream, config.metric,
-                                                   FreshSeed(config.seed), config.threads);
+  std::vector<Graspability> again(worst.size());
+  if (config.cem.score == kEpsilonScore) {
+    again = ScoreAll(std::ssize(worst), mesh, stream, config.metric, FreshSeed(config.seed),
+                     config.threads);
+  } else {  // of another judge there are no fresh draws
+    for (Graspability& none : again) none.value = none.ci_low = none.ci_high = std::nan("");
+  }
   CsvWriter csv({"file", "object", "graspability", "graspability_fresh_draws", "ci_low", "ci_high",
                  "size_mm"});
   for (std::size_t rank = 0; rank < worst.size(); ++rank) {
@@ -132,8 +137,9 @@ void ExportLeastGraspable(const ScoredStage& scored, const RunConfig& config,
               FitToPlate(*mesh(static_cast<std::int64_t>(rank)), config.stl_size_mm));
     csv.Text(name)
         .Text(SampleName(i))
-        .Numbers({value(i), again[rank].value, again[rank].ci_low, again[rank].ci_high,
-                  config.stl_size_mm});
+        .Number(value(i))
+        .NumbersOrGaps({again[rank].value, again[rank].ci_low, again[rank].ci_high})
+        .Number(config.stl_size_mm);
     csv.EndRow();
   }
   WriteFileAtomic(folder.Stl() / "scores.csv", csv.text());

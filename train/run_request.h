@@ -33,6 +33,6 @@ enum class OldRun {
   kReplace  // once nothing speaks against the new one's inputs
 };
 RunResult StartRun(const RunConfig& config, const std::filesystem::path& folder, OldRun old_run,
-                   RunObserver* observer);
+                   RunObserver* observer, const JudgeMaker& make_judge = nullptr);
 
 }  // namespace antigrasp

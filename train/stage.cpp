@@ -138,6 +138,48 @@ ScoredStage ScoreStageBy(const MeshScore& score, const torch::Tensor& values,
   return scored;
 }
 
+ScoredStage ScoreStageBy(Judge* judge, const torch::Tensor& values, const RunConfig& config,
+                         const ProgressFn& progress) {
+  ScoredStage scored = Unscored(values);
+  const std::int64_t count = values.size(0);
+  const auto report = [&](std::int64_t done) {
+    if (progress) progress(done, 2 * count);
+  };
+  ParallelFor(
+      count, config.threads,
+      [&](std::int64_t i) {
+        scored.objects[static_cast<std::size_t>(i)] = ObjectOf(values[i], config);
+      },
+      [&](std::int64_t done, std::int64_t) { report(done); });
+  std::vector<JudgedObject> batch;
+  std::vector<std::size_t> place_of;
+  const auto judge_batch = [&] {
+    if (batch.empty()) return;
+    const std::vector<Verdict> verdicts = judge->Score(batch);
+    for (std::size_t k = 0; k < verdicts.size(); ++k) {
+      if (!verdicts[k].score) continue;
+      scored.graspabilities[place_of[k]] = *verdicts[k].score;
+      scored.scores[place_of[k]].status = GraspabilityStatus::kOk;
+      scored.scores[place_of[k]].value = *verdicts[k].score;
+    }
+    if (!judge->Stopped().empty()) throw RuntimeFailure("the judge stopped: " + judge->Stopped());
+    batch.clear();
+    place_of.clear();
+  };
+  for (std::int64_t i = 0; i < count; ++i) {
+    const auto slot = static_cast<std::size_t>(i);
+    if (scored.objects[slot].ok()) {
+      batch.push_back({SampleName(i), &scored.objects[slot].mesh, static_cast<std::uint64_t>(i)});
+      place_of.push_back(slot);
+    }
+    if (batch.size() >= judge->BatchSize() || i + 1 == count) {
+      judge_batch();
+      report(count + i + 1);
+    }
+  }
+  return scored;
+}
+
 StageStatistics Summarize(int stage, const ScoredStage& scored, const torch::Tensor& prior,
                           const RunConfig& config) {
   StageStatistics row;

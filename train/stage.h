@@ -8,6 +8,7 @@
 
 #include "antigrasp/core/observer.h"
 #include "antigrasp/quality/graspability.h"
+#include "antigrasp/quality/judge.h"
 #include "antigrasp/sdf/remesh.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/statistics.h"
@@ -39,6 +40,11 @@ ScoredStage ScoreSamples(const torch::Tensor& values, const std::vector<std::int
 using MeshScore = std::function<double(const TriangleMesh&)>;
 ScoredStage ScoreStageBy(const MeshScore& score, const torch::Tensor& values,
                          const RunConfig& config, const ProgressFn& progress);
+
+// The same by a judge, in batches; an object without a verdict's score counts as rejected.
+// RuntimeFailure when the judge stops. `progress` counts every object twice: made, judged.
+ScoredStage ScoreStageBy(Judge* judge, const torch::Tensor& values, const RunConfig& config,
+                         const ProgressFn& progress);
 
 // Counts, mean graspability and similarity to the prior set (network values).
 StageStatistics Summarize(int stage, const ScoredStage& scored, const torch::Tensor& prior,

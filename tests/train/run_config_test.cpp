@@ -52,6 +52,7 @@ variant = "stratified"
 cells = 11
 step = 0.25
 select = "random"
+score = "judge:ours"
 prior_fraction = 0.75
 prior_scored = 13
 compared = 14
@@ -81,6 +82,7 @@ TEST(RunConfig, BindsEveryKeyToItsOwnField) {
   EXPECT_EQ(config.cem.cells, 11);
   EXPECT_EQ(config.cem.step, 0.25);
   EXPECT_EQ(config.cem.select, EliteOrder::kRandom);
+  EXPECT_EQ(config.cem.score, "judge:ours");
   EXPECT_EQ(config.cem.prior_fraction, 0.75);
   EXPECT_EQ(config.cem.prior_scored, 13);
   EXPECT_EQ(config.cem.compared, 14);
