@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -16,7 +17,10 @@ using Eigen::Vector3d;
 // MuJoCo keeps a contact at rest where its distance is `margin`: what is reported to it is the
 // distance plus this, so that surfaces rest where they meet.
 constexpr double kMargin = 0.0002;
-constexpr double kNearlySlips = 0.95;                // of what a contact can bear
+constexpr double kNearlySlips = 0.95;  // of what a contact can bear
+// How much of 1 MuJoCo's impedance lacks at a touch and at 0.1 mm of depth, and the mass below
+// which less: a contact gives way in proportion to (force / mass), and the force is the jaws'.
+constexpr double kGives = 0.01, kGivesDeep = 0.001, kLeastGives = 1e-4, kLight = 0.020;
 constexpr int kTable = 0, kBody = 1, kFirstTip = 2;  // geoms, in the order of the text below
 constexpr int kTipDofs = 6, kTipPositions = 7;       // behind those of the free body
 
@@ -168,6 +172,12 @@ class Mujoco final : public PhysicsEngine {
     Eigen::Map<Vector3d>(model_->body_inertia + 3 * id) = mass / body.volume * body.inertia;
     model_->geom_rbound[kBody] = body.radius;
     Eigen::Map<Vector3d>(model_->geom_size + 3 * kBody).setConstant(body.radius);
+    const double share = std::min(1.0, mass / kLight);
+    for (int pair = 0; pair < model_->npair; ++pair) {
+      mjtNum* const impedance = model_->pair_solimp + mjNIMP * pair;
+      impedance[0] = 1.0 - std::max(share * kGives, kLeastGives);
+      impedance[1] = 1.0 - std::max(share * kGivesDeep, kLeastGives);
+    }
     mj_setConst(model_.get(), data_.get());
   }
 

@@ -155,6 +155,18 @@ TEST(MujocoEngine, HeldAtRestItPressesWithTheJawsForceAndPenetratesLittle) {
   EXPECT_TRUE(last.sticks);
 }
 
+// The force is the jaws' whatever the mass: a body of 1 g would give way by 0.18 mm.
+TEST(MujocoEngine, ALightBodyAtRestIsTrustedToo) {
+  const PhysicsOptions physics;
+  Bench bench(shapes::Box(Vector3d::Constant(0.04)), physics, 0.001);
+  GripState last;
+  const Execution e = bench.Do(Matrix3d::Identity(), Vector3d::Zero(), 0.5,
+                               ProtocolOf(ProtocolName::kDexGraspBench), Pace::kFixed,
+                               [&](const ReplayFrame& frame) { last = frame.state; });
+  EXPECT_EQ(e.outcome, Outcome::kHeld);
+  EXPECT_LT(last.penetration, 1e-4);
+}
+
 // Falling freely: half g t^2, with the step's own rounding of it (semi-implicit Euler).
 TEST(MujocoEngine, NothingHoldsABodyBesideTheJaws) {
   PhysicsOptions physics;
