@@ -133,6 +133,7 @@ void AddDatasetCommand(CLI::App* app) {
   AddChoice(imported, "--scale", &import_flags->options.scale,
             "set: one factor for all, which leaves out what is far larger than the others; each: "
             "every object as large as the grid allows");
+  AddUnits(imported, &import_flags->options.units, ", for sets of one factor");
   AddResolution(imported, &import_flags->options.resolution);
   AddThreads(imported, &import_flags->options.threads);
   imported->callback([import_flags] { Import(*import_flags); });

@@ -15,6 +15,7 @@
 #include "antigrasp/judge/make_judge.h"
 #include "antigrasp/judge/score_objects.h"
 #include "antigrasp/quality/grasp_table.h"
+#include "antigrasp/quality/object_size.h"
 #include "antigrasp/quality/sampling_effort.h"
 
 namespace antigrasp {
@@ -67,7 +68,7 @@ void EvaluateAll(const EvaluateFlags& flags, const ObjectSource& objects, const 
   std::optional<ObjectSource> originals;
   std::vector<std::int64_t> original_of;
   if (!flags.baseline.empty()) {
-    originals.emplace(flags.baseline);
+    originals.emplace(flags.baseline, GridUnit::kOfFiles, UnitToReadIn(scoring.metric));
     original_of = PairWithOriginals(objects, *originals);
   }
   std::optional<AtomicFile> grasps_file;
@@ -130,7 +131,7 @@ void Evaluate(const EvaluateFlags& flags, const CLI::App& command, const OptionF
   const std::vector<std::filesystem::path> written = {flags.out, MetricPath(flags),
                                                       flags.grasps_out};
   RequireApart(written);
-  const ObjectSource objects(flags.inputs);
+  const ObjectSource objects(flags.inputs, GridUnit::kOfFiles, UnitToReadIn(scoring.metric));
   objects.RequireNotRead(written);
   RequireNotRead(metric_flags.gripper(), written);
   if (!flags.baseline.empty()) ObjectSource(flags.baseline).RequireNotRead(written);

@@ -76,7 +76,7 @@ void Export(const ExportFlags& flags, const PrintOptions& options,
     scoring.metric.object_min_extent = 0.0;
     scoring.metric.units = flags.units;
   }
-  const ObjectSource objects(flags.inputs);
+  const ObjectSource objects(flags.inputs, GridUnit::kOfFiles, UnitToReadIn(scoring.metric));
   metric_flags.RaiseEffort(objects.size(), &scoring.metric);
   const std::filesystem::path out = flags.out;
   RequireNotRead(metric_flags.gripper(), {out / kScores, out / kConstants});

@@ -23,12 +23,12 @@ void DescribeShapeSet(const fs::path& path) {
 }
 
 void DescribeMesh(const fs::path& path) {
-  std::vector<std::string> notes;
-  const TriangleMesh mesh = ReadMesh(path, &notes);
-  std::printf("%s: mesh, %zu vertices, %zu faces\n", path.c_str(), mesh.vertices.size(),
-              mesh.faces.size());
-  for (const std::string& note : notes) std::printf("  note               %s\n", note.c_str());
-  std::fputs(MeshText(mesh).c_str(), stdout);
+  const MeshFile file = ReadMeshFile(path);
+  std::printf("%s: mesh, %zu vertices, %zu faces\n", path.c_str(), file.mesh.vertices.size(),
+              file.mesh.faces.size());
+  if (file.unit) std::printf("  unit               %s\n", file.unit->name.c_str());
+  for (const std::string& note : file.notes) std::printf("  note               %s\n", note.c_str());
+  std::fputs(MeshText(file.mesh).c_str(), stdout);
 }
 
 void DescribePerturbed(const InfoFlags& flags) {

@@ -18,6 +18,7 @@
 #include "antigrasp/perturb/perturb_summary.h"
 #include "antigrasp/perturb/random_perturbation.h"
 #include "antigrasp/perturb/search_choice.h"
+#include "antigrasp/quality/object_size.h"
 
 namespace antigrasp {
 namespace {
@@ -34,7 +35,7 @@ void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
              const std::string& constants, const std::string& gripper) {
   ConsoleObserver console;
   CheckPerturbFolder(flags.inputs, flags.out);
-  const ObjectSource source(flags.inputs);
+  const ObjectSource source(flags.inputs, GridUnit::kOfFiles, UnitToReadIn(settings.metric));
   for (const std::string& file : PerturbFiles().of_call) {
     RequireNotRead(gripper, {std::filesystem::path(flags.out) / file});
   }

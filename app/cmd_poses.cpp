@@ -25,7 +25,7 @@ struct PosesFlags {
 void Poses(const PosesFlags& flags) {
   if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
   ConsoleObserver console;
-  const ObjectSource source(flags.inputs);
+  const ObjectSource source(flags.inputs, GridUnit::kOfFiles, flags.units);
   source.RequireNotRead({flags.out});
   const std::vector<InputObject> objects =
       LoadObjects(source, flags.threads, console.Phase("reading"));

@@ -15,6 +15,7 @@
 #include "antigrasp/core/format.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/judge/object_notes.h"
+#include "antigrasp/quality/object_size.h"
 #include "antigrasp/trial/model_table.h"
 #include "antigrasp/trial/object_trials.h"
 
@@ -37,9 +38,9 @@ struct TrialFlags : PhysicsTrialRequest {
   bool millimetres = false;
 };
 
-std::vector<InputObject> LoadUsable(const TrialFlags& flags) {
+std::vector<InputObject> LoadUsable(const TrialFlags& flags, const MetricOptions& metric) {
   ConsoleObserver console;
-  const ObjectSource source(flags.inputs);
+  const ObjectSource source(flags.inputs, GridUnit::kOfFiles, UnitToReadIn(metric));
   source.RequireNotRead({flags.out});
   std::vector<InputObject> objects = LoadObjects(source, flags.threads, console.Phase("reading"));
   WarnOfNotes(objects, &Warn);
@@ -57,7 +58,7 @@ void TrialByModel(const TrialFlags& flags, const PhysicsTrialOptions& given, Met
   OptionTable table;
   Bind(&table, &options);
   if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
-  const std::vector<InputObject> objects = LoadUsable(flags);
+  const std::vector<InputObject> objects = LoadUsable(flags, metric);
   WarnOfSizes(objects, metric, &Warn);
   ConsoleObserver console;
   const std::vector<TrialReading> all =

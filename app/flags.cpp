@@ -160,7 +160,8 @@ void WarnOfLengths(const MetricOptions& metric, const TypedOption& typed) {
 
 void AddUnits(CLI::App* command, LengthUnit* units, const std::string& help) {
   AddChoice(command, "--units", units,
-            "what the coordinates are in: " + Alternatives(ChoiceNames<LengthUnit>()) + help);
+            "what the coordinates are in: " + Alternatives(ChoiceNames<LengthUnit>()) + help +
+                "; 3MF and GLB say it themselves");
 }
 
 }  // namespace antigrasp

@@ -75,7 +75,7 @@ bool IsObj(const std::string& first) {
 bool IsMeshText(const std::string& first) {
   return (first.starts_with("solid") && first.find("facet") != std::string::npos) ||
          first.starts_with("ply\n") || first.starts_with("ply\r") || first.starts_with("OFF") ||
-         IsObj(first);
+         first.starts_with("glTF") || IsObj(first);
 }
 
 // "a table of object, status, num_grasps, ...".

@@ -15,7 +15,7 @@ ComparedSet ReadComparedSet(const std::string& input, LengthUnit units, int thre
   set.input = input;
   std::vector<std::string> statuses;
   for (InputObject& object :
-       LoadObjects(ObjectSource({input}, GridUnit::kCube), threads, progress)) {
+       LoadObjects(ObjectSource({input}, GridUnit::kCube, units), threads, progress)) {
     statuses.push_back(object.status);
     if (object.ok() && SurfaceArea(object.mesh) > 0.0) {
       // The whole name: points of two shapes of one set are never drawn alike.

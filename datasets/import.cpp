@@ -96,12 +96,13 @@ void Refuse(const std::string& why, Item* item) {
 }
 
 // The mesh is empty unless it is usable.
-std::pair<Item, TriangleMesh> ReadItem(const fs::path& path) {
+std::pair<Item, TriangleMesh> ReadItem(const fs::path& path, LengthUnit units) {
   Item item;
   item.report.path = path.string();
   try {
-    std::vector<std::string> changes;
-    RepairResult repaired = Repair(ReadMesh(path, &changes));
+    MeshFile file = ReadMeshFile(path);
+    std::vector<std::string> changes = file.notes;
+    RepairResult repaired = Repair(InUnit(std::move(file), units));
     changes.insert(changes.end(), repaired.actions.begin(), repaired.actions.end());
     if (repaired.accepted()) {
       item.usable = true;
@@ -205,12 +206,14 @@ std::string Joined(const std::vector<fs::path>& inputs) {
 }
 
 // Every file read and repaired; usable meshes wait in the spool.
-std::vector<Item> ReadAll(const std::vector<Source>& sources, int threads, MeshSpool* spool,
-                          const ProgressFn& progress) {
+std::vector<Item> ReadAll(const std::vector<Source>& sources, const ImportOptions& options,
+                          MeshSpool* spool, const ProgressFn& progress) {
   std::vector<Item> items(sources.size());
   StreamInOrder(
-      std::ssize(sources), threads,
-      [&](std::int64_t i) { return ReadItem(sources[static_cast<std::size_t>(i)].path); },
+      std::ssize(sources), options.threads,
+      [&](std::int64_t i) {
+        return ReadItem(sources[static_cast<std::size_t>(i)].path, options.units);
+      },
       [&](std::int64_t i, std::pair<Item, TriangleMesh> read) {
         const auto slot = static_cast<std::size_t>(i);
         items[slot] = std::move(read.first);
@@ -278,7 +281,7 @@ std::vector<ImportedMesh> ImportMeshes(const std::vector<fs::path>& inputs, cons
   };
   Spool grids(out.string() + ".grids");
   MeshSpool meshes(out.string() + ".meshes", sources.size());
-  std::vector<Item> items = ReadAll(sources, options.threads, &meshes, report_from(0));
+  std::vector<Item> items = ReadAll(sources, options, &meshes, report_from(0));
   CountUsable(items, where);
 
   const double room = (options.resolution - 2.0 * kFreeCells) / options.resolution;

@@ -7,6 +7,7 @@
 
 #include "antigrasp/core/choice.h"
 #include "antigrasp/core/parallel.h"
+#include "antigrasp/mesh/length_unit.h"
 
 namespace antigrasp {
 
@@ -21,7 +22,8 @@ constexpr auto ChoicesOf(ImportScale) {
 struct ImportOptions {
   int resolution = 32;
   ImportScale scale = ImportScale::kSet;
-  int threads = 0;  // 0 = all; the set does not depend on it
+  LengthUnit units = LengthUnit::kM;  // meshes whose files know theirs are turned into it
+  int threads = 0;                    // 0 = all; the set does not depend on it
 };
 
 // With one factor for all, an object more than this many times as long as the set's median (lower)

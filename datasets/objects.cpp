@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/file_kind.h"
@@ -37,9 +38,18 @@ InputObject FromMesh(const TriangleMesh& mesh) {
   return object;
 }
 
-InputObject FromFile(const fs::path& path) {
-  std::vector<std::string> read_otherwise;
-  InputObject object = FromMesh(ReadMesh(path, &read_otherwise));
+// A unit that was named, not the default, and is not the file's deserves a word.
+std::string UnitNote(const std::optional<FileUnit>& of_file, std::optional<LengthUnit> into) {
+  if (!of_file || !into || *into == LengthUnit::kM || ChoiceName(*into) == of_file->name) return "";
+  return "turned into " + ChoiceName(*into) + ": the file says that it is in " + of_file->name;
+}
+
+InputObject FromFile(const fs::path& path, std::optional<LengthUnit> into) {
+  MeshFile file = ReadMeshFile(path);
+  std::vector<std::string> read_otherwise = file.notes;
+  const std::string unit = UnitNote(file.unit, into);
+  if (!unit.empty()) read_otherwise.push_back(unit);
+  InputObject object = FromMesh(into ? InUnit(std::move(file), *into) : std::move(file.mesh));
   for (const std::string& note : read_otherwise) AddNote(note, &object);
   return object;
 }
@@ -53,9 +63,9 @@ InputObject FromGrid(const SdfGrid& grid) {
 }
 
 // An unreadable mesh in a folder is no reason to leave the others.
-InputObject FromFileInFolder(const fs::path& file) {
+InputObject FromFileInFolder(const fs::path& file, std::optional<LengthUnit> into) {
   try {
-    return FromFile(file);
+    return FromFile(file, into);
   } catch (const InputError& error) {
     InputObject object;
     object.status = "not readable";
@@ -110,7 +120,9 @@ void ObjectSource::Open(const std::string& path, std::vector<ObjectOrigin>* orig
   }
 }
 
-ObjectSource::ObjectSource(const std::vector<std::string>& inputs, GridUnit unit) : unit_(unit) {
+ObjectSource::ObjectSource(const std::vector<std::string>& inputs, GridUnit unit,
+                           std::optional<LengthUnit> into)
+    : unit_(unit), into_(into) {
   std::vector<ObjectOrigin> origins;
   for (const std::string& input : inputs) Open(input, &origins);
   if (sources_.empty()) throw InputError("no object", inputs.front(), Expected());
@@ -147,8 +159,8 @@ InputObject ObjectSource::Load(std::int64_t i) const {
   const Source& source = sources_[static_cast<std::size_t>(i)];
   const Input& from = inputs_[source.input];
   InputObject object = from.set         ? FromGrid(from.set->Grid(source.grid))
-                       : from.is_folder ? FromFileInFolder(source.file)
-                                        : FromFile(source.file);
+                       : from.is_folder ? FromFileInFolder(source.file, into_)
+                                        : FromFile(source.file, into_);
   object.name = source.name;
   if (from.set && from.set->info().side > 0.0 && unit_ == GridUnit::kOfFiles) {
     object.mesh = Transformed(object.mesh, from.set->info().side, Eigen::Vector3d::Zero());

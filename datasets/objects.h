@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "antigrasp/core/parallel.h"
 #include "antigrasp/datasets/object_names.h"
+#include "antigrasp/mesh/length_unit.h"
 #include "antigrasp/mesh/triangle_mesh.h"
 
 namespace antigrasp {
@@ -33,7 +35,10 @@ enum class GridUnit {
 class ObjectSource {
  public:
   // InputError for a missing path, for a file of unknown kind and for no object at all.
-  explicit ObjectSource(const std::vector<std::string>& inputs, GridUnit unit = GridUnit::kOfFiles);
+  // `into`: the unit that meshes are turned into whose files know their own (3MF, GLB), so that
+  // files of any are at true size side by side; none: they are read as they are.
+  explicit ObjectSource(const std::vector<std::string>& inputs, GridUnit unit = GridUnit::kOfFiles,
+                        std::optional<LengthUnit> into = std::nullopt);
   ~ObjectSource();
   std::int64_t size() const;
   const std::string& name(std::int64_t i) const;
@@ -53,6 +58,7 @@ class ObjectSource {
   void Open(const std::string& path, std::vector<ObjectOrigin>* origins);
 
   GridUnit unit_;
+  std::optional<LengthUnit> into_;
   std::vector<Input> inputs_;
   std::vector<Source> sources_;
 };

@@ -95,7 +95,7 @@ std::string TrialToml(MetricOptions metric, PhysicsTrialOptions trial) {
 GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
                        const MetricOptions& trial_metric, const PhysicsTrialOptions& trial,
                        RunObserver* observer) {
-  const ObjectSource objects(request.inputs);
+  const ObjectSource objects(request.inputs, GridUnit::kOfFiles, UnitToReadIn(metric));
   const ByObject by = Sort(ReadGivenGrasps(request.grasps), objects, request.grasps);
   GivenReport report;
   GivenTable table(request.in_physics);

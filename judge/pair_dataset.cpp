@@ -13,6 +13,7 @@
 #include "antigrasp/judge/pair_split.h"
 #include "antigrasp/judge/pair_tables.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/quality/object_size.h"
 
 namespace antigrasp {
 namespace {
@@ -102,7 +103,9 @@ PairReport WritePairDataset(const PairRequest& request, const MetricOptions& met
   if (!(request.train + request.val <= 1.0 + 1e-9)) {
     throw InputError("shares of more than the whole", "--train and --val", "a sum of at most 1");
   }
-  const ObjectSource after({request.after}), before({request.before});
+  const auto unit = UnitToReadIn(metric);
+  const ObjectSource after({request.after}, GridUnit::kOfFiles, unit);
+  const ObjectSource before({request.before}, GridUnit::kOfFiles, unit);
   const std::vector<std::int64_t> before_of = PairWithOriginals(after, before);
   std::vector<std::string> names;
   for (std::int64_t i = 0; i < after.size(); ++i) names.push_back(after.name(i));

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "antigrasp/core/choice.h"
 
 namespace antigrasp {
 
-// What the coordinates of a mesh are in: none of the formats that are read says so. An SDF file's
-// unit is that of the meshes which it was imported from, else the side of its cube.
+// What the coordinates of a mesh are in; of the formats that are read only 3MF and GLB say so. An
+// SDF file's unit is that of the meshes which it was imported from, else the side of its cube.
 enum class LengthUnit { kMm, kCm, kM, kIn };
 constexpr auto ChoicesOf(LengthUnit) {
   return std::to_array<Choice<LengthUnit>>({{LengthUnit::kMm, "mm"},
@@ -29,5 +30,11 @@ constexpr double MetresPer(LengthUnit unit) {
   }
   return 1.0;
 }
+
+// What a file says that its coordinates are in, a foot and a micron included.
+struct FileUnit {
+  std::string name;  // as in LengthUnit, where it is one
+  double metres = 1.0;
+};
 
 }  // namespace antigrasp

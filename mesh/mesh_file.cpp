@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/check.h"
@@ -56,6 +57,10 @@ PolygonSoup ReadSoup(MeshFormat format, const std::string& bytes, const std::str
       return ReadPly(bytes, path);
     case MeshFormat::kOff:
       return ReadOff(bytes, path);
+    case MeshFormat::k3mf:
+      return Read3mf(bytes, path);
+    case MeshFormat::kGlb:
+      return ReadGlb(bytes, path);
   }
   AG_CHECK(false, "unknown mesh format");
 }
@@ -89,27 +94,43 @@ std::filesystem::path FindMeshFile(const std::filesystem::path& folder, const st
 
 namespace {
 
-TriangleMesh ReadByExtension(const std::filesystem::path& path, std::vector<std::string>* notes) {
-  const MeshFormat format = RequireReadableFormat(path);
+MeshFile ReadByExtension(const std::filesystem::path& path, MeshFormat format) {
   std::error_code ignored;
   if (std::filesystem::file_size(path, ignored) > kLargestFile) {
     throw InputError("file larger than 2 GiB", path.string(), "a smaller mesh");
   }
   const std::string bytes = ReadFile(path);
   if (bytes.empty()) throw InputError("empty file", path.string(), Expected(kReadableFormats));
-  return ToTriangleMesh(ReadSoup(format, bytes, path.string()), path.string(), notes);
+  const PolygonSoup soup = ReadSoup(format, bytes, path.string());
+  MeshFile file;
+  file.mesh = ToTriangleMesh(soup, path.string(), &file.notes);
+  file.unit = soup.unit;
+  return file;
 }
 
 }  // namespace
 
-TriangleMesh ReadMesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
+MeshFile ReadMeshFile(const std::filesystem::path& path) {
   RequireFile(path, Expected(kReadableFormats));
+  const MeshFormat format = RequireReadableFormat(path);
   try {
-    return ReadByExtension(path, notes);
+    return ReadByExtension(path, format);
   } catch (const InputError&) {
-    RefuseOtherKind(path, FileKind::kMesh, "a mesh", Expected(kReadableFormats));
+    const FileKind kind = format == MeshFormat::k3mf ? FileKind::kZip : FileKind::kMesh;
+    RefuseOtherKind(path, kind, "a mesh", Expected(kReadableFormats));
     throw;
   }
+}
+
+TriangleMesh InUnit(MeshFile file, LengthUnit unit) {
+  if (!file.unit || file.unit->metres == MetresPer(unit)) return std::move(file.mesh);
+  return Transformed(file.mesh, file.unit->metres / MetresPer(unit), Eigen::Vector3d::Zero());
+}
+
+TriangleMesh ReadMesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
+  MeshFile file = ReadMeshFile(path);
+  if (notes != nullptr) notes->insert(notes->end(), file.notes.begin(), file.notes.end());
+  return std::move(file.mesh);
 }
 
 }  // namespace antigrasp

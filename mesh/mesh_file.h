@@ -1,17 +1,33 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "antigrasp/mesh/length_unit.h"
 #include "antigrasp/mesh/triangle_mesh.h"
 
 namespace antigrasp {
 
-// Reads STL (ascii or binary), OBJ, PLY or OFF by content and extension. Polygons are triangulated,
-// several groups joined, exactly equal positions merged; nothing else is repaired (see repair.h).
-// InputError when the file is missing, a directory, truncated, of another format or not finite.
-// `notes`: what was left out or read otherwise than the file says, a few words each.
+// A mesh in the coordinates of its file.
+struct MeshFile {
+  TriangleMesh mesh;
+  std::optional<FileUnit> unit;    // what they are in, of 3MF and GLB, which say so
+  std::vector<std::string> notes;  // what was left out or read otherwise, a few words each
+};
+
+// Reads STL (ascii or binary), OBJ, PLY, OFF, 3MF or GLB by content and extension. Polygons are
+// triangulated, several groups joined, exactly equal positions merged; nothing else is repaired
+// (see repair.h). Of 3MF what is built, of GLB the default scene, every object at its place; the
+// axes stay (glTF's y is up). InputError when the file is missing, a directory, truncated, of
+// another format or not finite.
+MeshFile ReadMeshFile(const std::filesystem::path& path);
+
+// The mesh in `unit` when its file knows its own, else as it is.
+TriangleMesh InUnit(MeshFile file, LengthUnit unit);
+
+// The mesh alone, in the coordinates of its file. `notes`: those of the file are added.
 TriangleMesh ReadMesh(const std::filesystem::path& path, std::vector<std::string>* notes = nullptr);
 
 // Whether ReadMesh knows the extension (case does not matter).

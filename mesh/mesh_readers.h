@@ -18,4 +18,9 @@ PolygonSoup ReadObj(std::string_view bytes, const std::string& path);
 PolygonSoup ReadPly(std::string_view bytes, const std::string& path);
 PolygonSoup ReadOff(std::string_view bytes, const std::string& path);
 
+// These know their unit. lib3mf (1.8.1) does not end on components nested a few dozen deep and
+// refuses a file for one face without area; glTF libraries hand indices and offsets on unchecked.
+PolygonSoup Read3mf(std::string_view bytes, const std::string& path);
+PolygonSoup ReadGlb(std::string_view bytes, const std::string& path);
+
 }  // namespace antigrasp

@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "antigrasp/mesh/length_unit.h"
 #include "antigrasp/mesh/triangle_mesh.h"
 
 namespace antigrasp {
@@ -15,6 +17,7 @@ struct PolygonSoup {
   std::vector<std::int64_t> corners;  // of all polygons, one after the other; 0 = first vertex
   std::vector<std::size_t> ends;      // polygon i is corners [ends[i - 1], ends[i])
   std::vector<std::string> notes;     // what had to be read otherwise than the file says
+  std::optional<FileUnit> unit;       // of a file that knows it
 
   void EndPolygon() { ends.push_back(corners.size()); }
 };

@@ -100,6 +100,9 @@ std::string Bytes(MeshFormat format, const TriangleMesh& mesh) {
       return PlyBytes(mesh);
     case MeshFormat::kOff:
       return OffBytes(mesh);
+    case MeshFormat::k3mf:
+    case MeshFormat::kGlb:
+      break;  // are read only
   }
   AG_CHECK(false, "unknown mesh format");
 }

@@ -136,7 +136,8 @@ void Bind(OptionTable* table, MetricOptions* options) {
   table->Add(
       "metric.units", &o.units,
       "what the meshes' coordinates are in: mm, cm, m or in (of an SDF file: of the meshes "
-      "imported with one factor, else the side of its cube); counts where objects keep their size");
+      "imported with one factor, else the side of its cube; 3MF and GLB say it themselves); counts "
+      "where objects keep their size");
   BindOpening(table, &o);
   table->Add("metric.num_grasps", &o.num_grasps, 1, 1e6, "grasps scored per object");
   table->Add("metric.num_draws", &o.num_draws, 1, 1e6, "noise draws per grasp");

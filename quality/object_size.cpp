@@ -41,6 +41,11 @@ std::string BoxText(const Eigen::Vector3d& metres) {
 
 bool AtTrueSize(const MetricOptions& options) { return !(options.object_min_extent > 0.0); }
 
+std::optional<LengthUnit> UnitToReadIn(const MetricOptions& options) {
+  if (!AtTrueSize(options)) return std::nullopt;
+  return options.units;
+}
+
 double MetresPerUnit(const MetricOptions& options, const Eigen::Vector3d& extent) {
   return AtTrueSize(options) ? MetresPer(options.units)
                              : options.object_min_extent / extent.minCoeff();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,10 @@ namespace antigrasp {
 
 // Whether objects keep their size (object_min_extent = 0).
 bool AtTrueSize(const MetricOptions& options);
+
+// The unit that meshes are turned into whose files know their own: metric.units where objects keep
+// their size; else each is scaled anyway, and results stay in the file's.
+std::optional<LengthUnit> UnitToReadIn(const MetricOptions& options);
 
 // Metres per unit of a mesh whose bounding box has these extents (mesh's unit). Not finite when the
 // smallest is 0 and objects are rescaled.

@@ -1,4 +1,5 @@
 #include "antigrasp/report/figure_inputs.h"
+#include "antigrasp/quality/object_size.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,8 @@ std::vector<GraspedObject> GraspedObjects(const std::vector<std::string>& inputs
                                           const MetricOptions& metric, std::uint64_t seed,
                                           int threads, RunObserver* observer) {
   std::vector<InputObject> objects =
-      LoadObjects(inputs, threads, observer->Phase("reading"), kMostObjects + 1);
+      LoadObjects(ObjectSource(inputs, GridUnit::kOfFiles, UnitToReadIn(metric)), threads,
+                  observer->Phase("reading"), kMostObjects + 1);
   if (objects.size() > kMostObjects) {
     throw InputError("too many objects", inputs.front(), "at most 100 in a figure");
   }

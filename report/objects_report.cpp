@@ -129,11 +129,13 @@ Report ObjectsReport(const ReportSettings& settings, RunObserver* observer) {
     throw InputError("objects with " + std::to_string(tables.size()) + " tables of scores",
                      tables[1].path, "one table, that of these objects");
   }
-  const ObjectSource source(inputs);
+  const bool saved = !tables.empty() && tables[0].metric;
+  const ObjectSource source(inputs, GridUnit::kOfFiles,
+                            UnitToReadIn(saved ? tables[0].metric->metric : settings.metric));
   SavedMetric metric{settings.seed, settings.metric, ""};
   if (settings.raise_effort) RaiseEffortForFew(source.size(), &metric.metric);
   metric.toml = MetricToml(metric.metric, metric.seed);
-  if (!tables.empty() && tables[0].metric) metric = *tables[0].metric;
+  if (saved) metric = *tables[0].metric;
   report.metric = metric.metric;
   report.config = metric.toml;
   for (std::size_t i = 0; i < inputs.size(); ++i) {

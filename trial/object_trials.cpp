@@ -189,11 +189,11 @@ std::vector<std::int64_t> InOrder(std::int64_t count) {
 PhysicsTrialReport TryInPhysics(const PhysicsTrialRequest& request, const MetricOptions& metric,
                                 const PhysicsTrialOptions& options, RunObserver* observer) {
   PhysicsTrialReport report;
-  const ObjectSource objects(request.inputs);
+  const ObjectSource objects(request.inputs, GridUnit::kOfFiles, UnitToReadIn(metric));
   std::optional<ObjectSource> originals;
   std::vector<Side> sides = {{"after", objects, InOrder(objects.size())}};
   if (!request.baseline.empty()) {
-    originals.emplace(request.baseline);
+    originals.emplace(request.baseline, GridUnit::kOfFiles, UnitToReadIn(metric));
     sides.push_back({"before", *originals, PairWithOriginals(objects, *originals)});
   }
   std::optional<ResultFolder> folder;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/objects.h"
@@ -101,6 +102,29 @@ TEST(ObjectSource, NamesTheFileThatWouldBeWrittenOver) {
   EXPECT_THROW(source.RequireNotRead({folder / "other.stl", folder / "in/../in/box.stl"}),
                InputError);
   EXPECT_THROW(source.RequireNotRead({folder / "p.h5"}), InputError);
+}
+
+TEST(ObjectSource, FilesThatKnowTheirUnitAreTurnedIntoThatOfTheCall) {
+  const TempFolder folder;
+  WriteMesh(folder / "c.stl", shapes::Box({20, 30, 40}));
+  const std::vector<std::string> inputs = {ANTIGRASP_TEST_DATA "/tinygltf-two-cubes.glb",
+                                           (folder / "c.stl").string()};
+  const auto load = [&](std::int64_t i, std::optional<LengthUnit> into) {
+    return ObjectSource(inputs, GridUnit::kOfFiles, into).Load(i);
+  };
+  const auto longest = [&](std::int64_t i, std::optional<LengthUnit> into) {
+    return Bounds(load(i, into).mesh).Extent().maxCoeff();
+  };
+  EXPECT_NEAR(longest(0, std::nullopt), 0.05, 1e-8);
+  EXPECT_NEAR(longest(0, LengthUnit::kM), 0.05, 1e-8);
+  EXPECT_NEAR(longest(0, LengthUnit::kMm), 50.0, 1e-5);
+  EXPECT_NEAR(longest(0, LengthUnit::kIn), 50.0 / 25.4, 1e-6);
+  for (const auto into : {LengthUnit::kM, LengthUnit::kMm}) EXPECT_EQ(longest(1, into), 40.0);
+  // A unit that was named, and is not the file's, deserves a word.
+  const std::string note = load(0, LengthUnit::kMm).note;
+  EXPECT_NE(note.find("turned into mm: the file says that it is in m"), std::string::npos) << note;
+  EXPECT_EQ(load(0, LengthUnit::kM).note.find("turned"), std::string::npos);
+  EXPECT_EQ(load(1, LengthUnit::kMm).note, "");
 }
 
 TEST(ObjectSource, CountsStatuses) {

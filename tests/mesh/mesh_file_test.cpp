@@ -104,10 +104,12 @@ TEST(MeshFile, EveryListedFormatIsReadAndWritten) {
     WriteMesh(folder / ("a." + extension), shapes::Tetrahedron());
     EXPECT_TRUE(std::filesystem::exists(folder / ("a." + extension))) << extension;
   }
-  for (const std::string& extension : ReadableExtensions()) {
+  for (const std::string& extension : WritableExtensions()) {
     EXPECT_EQ(ReadMesh(folder / ("a." + extension)).faces.size(), 4u) << extension;
   }
-  EXPECT_EQ(ReadableExtensions(), (std::vector<std::string>{"stl", "obj", "ply", "off"}));
+  EXPECT_EQ(WritableExtensions(), (std::vector<std::string>{"stl", "obj", "ply", "off"}));
+  EXPECT_EQ(ReadableExtensions(),
+            (std::vector<std::string>{"stl", "obj", "ply", "off", "3mf", "glb"}));
 }
 
 TEST(MeshFile, RefusesToWriteWhatNoReaderWouldTake) {
