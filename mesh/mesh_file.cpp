@@ -129,7 +129,7 @@ TriangleMesh InUnit(MeshFile file, LengthUnit unit) {
 
 TriangleMesh ReadMesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
   MeshFile file = ReadMeshFile(path);
-  if (notes != nullptr) notes->insert(notes->end(), file.notes.begin(), file.notes.end());
+  if (notes != nullptr) *notes = std::move(file.notes);
   return std::move(file.mesh);
 }
 

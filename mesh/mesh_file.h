@@ -27,7 +27,7 @@ MeshFile ReadMeshFile(const std::filesystem::path& path);
 // The mesh in `unit` when its file knows its own, else as it is.
 TriangleMesh InUnit(MeshFile file, LengthUnit unit);
 
-// The mesh alone, in the coordinates of its file. `notes`: those of the file are added.
+// The mesh alone, in the coordinates of its file. `notes`: those of the file.
 TriangleMesh ReadMesh(const std::filesystem::path& path, std::vector<std::string>* notes = nullptr);
 
 // Whether ReadMesh knows the extension (case does not matter).
