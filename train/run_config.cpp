@@ -18,8 +18,9 @@ void Bind(OptionTable* table, CemOptions* o) {
   table->Add("cem.step", &o->step, 1e-3, 1,
              "latent mode: standard deviation of z around an elite's; 1 forgets the elites");
   table->Add("cem.select", &o->select, "keep the least graspable, or random ones (the control)");
-  table->Add("cem.score", &o->score, {},
-             "who scores samples: epsilon, trial, trial:PROTOCOL or judge:COMMAND, a program");
+  table->Add(
+      "cem.score", &o->score, {},
+      "who scores samples: epsilon, settled, trial, trial:PROTOCOL or judge:COMMAND, a program");
   table->Add("cem.restart", &o->restart, "fresh networks each episode instead of going on");
   table->Add("cem.redistance", &o->redistance,
              "train on the exact distances to the elites' meshes, not on the generator's values");
@@ -90,10 +91,10 @@ void Validate(const RunConfig& config, const std::string& origin) {
     throw InputError("run.fine_tune without run.start", origin, "networks to start from (--from)");
   }
   const std::string& score = config.cem.score;
-  if (score != kEpsilonScore && score != "trial" && !score.starts_with("trial:") &&
-      !score.starts_with("judge:")) {
+  if (score != kEpsilonScore && score != "settled" && score != "trial" &&
+      !score.starts_with("trial:") && !score.starts_with("judge:")) {
     throw InputError("cem.score = " + score, origin,
-                     "epsilon, trial, trial:PROTOCOL or judge:COMMAND");
+                     "epsilon, settled, trial, trial:PROTOCOL or judge:COMMAND");
   }
   if (config.cem.keep > config.cem.samples) {
     throw InputError("cem.keep = " + std::to_string(config.cem.keep), origin,

@@ -49,8 +49,8 @@ struct CemOptions {
   int cells = 100;    // of the stratified variant
   double step = 0.5;  // latent mode: how far z strays from an elite's (latent_mixture.h)
   EliteOrder select = EliteOrder::kGraspability;
-  // Who scores the samples, lower = kept: "epsilon" (graspability), "trial", "trial:PROTOCOL" or
-  // "judge:COMMAND" (docs/judges.md).
+  // Who scores the samples, lower = kept: "epsilon" (graspability), "settled", "trial",
+  // "trial:PROTOCOL" or "judge:COMMAND" (docs/judges.md).
   std::string score = kEpsilonScore;
   bool restart = false;  // fresh networks each episode instead of going on
   // Elites are learnt from as the exact distances to their meshes, not as what the generator drew.

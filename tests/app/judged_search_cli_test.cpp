@@ -29,8 +29,8 @@ TEST(JudgedSearchCli, TriesBothMeshesAsTrialDoesAndDoesNotDependOnTheThreads) {
   const std::string dir = folder.path().string() + "/";
   WriteMesh(folder / "box.stl", shapes::Box({30, 40, 60}));
   WriteMesh(folder / "cube.stl", shapes::Box({40, 40, 40}));
-  const std::string search =
-      "perturb search --objective trial" + std::string(kQuick) + dir + "box.stl " + dir + "cube.stl ";
+  const std::string search = "perturb search --objective trial" + std::string(kQuick) + dir +
+                             "box.stl " + dir + "cube.stl ";
   const Outcome outcome = Antigrasp(search + "--threads 1 --out " + dir + "one");
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_NE(outcome.text.find("judge trial:six-ways, 2 of 2 objects: "), std::string::npos)
