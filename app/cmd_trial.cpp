@@ -112,8 +112,9 @@ void Trial(TrialFlags flags, const CLI::App& command, const OptionFlags& trial_f
   }
   RequireOptionsUsed(protocol, options.physics.tip.shape,
                      [&](const std::string& key) { return trial_flags.Typed(key); });
-  if (command.count("--equal-mass") > 0 && flags.baseline.empty()) {
-    throw InputError("nothing is compared", "--equal-mass", "--baseline, or --mass for all");
+  if (command.count("--equal-mass") > 0 && (flags.baseline.empty() || options.mass > 0.0)) {
+    throw InputError("nothing is compared", "--equal-mass",
+                     "--baseline, and no other mass (--mass, or of the protocol)");
   }
   const bool by_angle = command.count("--friction-angle") + command.count("--reading") > 0;
   flags.frictions =
@@ -166,7 +167,7 @@ void AddTrialCommand(CLI::App* app) {
       std::make_shared<OptionFlags>(AddOptions<PhysicsTrialOptions>(command, "Trial"));
   const auto metric_flags = std::make_shared<MetricFlags>(command);
   command->remove_option(command->get_option("--percentile"));  // without meaning here
-  command->get_option("--friction")->excludes("--friction-angle");
+  command->get_option("--friction")->excludes("--friction-angle", "--reading");
   for (const char* name : {"--units", "--object-min-extent"}) mm->excludes(name);
   command->footer(kTrialHelp);
   command->callback([flags, command, trial_flags, metric_flags] {

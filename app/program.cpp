@@ -124,7 +124,11 @@ int RunProgram(int argc, char** argv, const std::function<void(CLI::App*)>& add_
   spdlog::set_pattern("[%H:%M:%S] %^%v%$");
   InstallSignalHandlers();
   try {
-    return Parse(argc, argv, add_commands);
+    const int code = Parse(argc, argv, add_commands);
+    if (code == 0 && std::fflush(stdout) != 0) {
+      return Fail(kFailure, "cannot write to standard output");
+    }
+    return code;
   } catch (const InputError& error) {
     return Fail(kBadInput, error.what());
   } catch (const Interrupted&) {

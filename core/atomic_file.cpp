@@ -45,8 +45,10 @@ bool IsTemporaryName(const std::string& name) {
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
-  const fs::path folder = FolderOf(target_);
   std::error_code ignored;
+  // What a link leads to is written, the link stays.
+  if (fs::is_symlink(target_, ignored)) target_ = fs::weakly_canonical(target_);
+  const fs::path folder = FolderOf(target_);
   if (!fs::is_directory(folder, ignored)) {
     throw InputError("cannot write " + target_.string(), folder.string(),
                      "an existing folder to write into");
@@ -54,6 +56,10 @@ AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
   if (fs::is_directory(target_, ignored)) {
     throw InputError("cannot write " + target_.string(), target_.string(),
                      "a file name, not a folder");
+  }
+  if (fs::exists(target_, ignored) && !fs::is_regular_file(target_, ignored)) {
+    throw InputError("cannot write " + target_.string(), target_.string(),
+                     "a file, not a device, pipe or socket");
   }
   if (::access(folder.c_str(), W_OK) != 0) {
     throw InputError("cannot write " + target_.string(), folder.string(), "a writable folder");

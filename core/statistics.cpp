@@ -161,4 +161,12 @@ MeanInterval MeanWithInterval(const std::vector<double>& values) {
   return result;
 }
 
+Interval WilsonInterval(double share, double count) {
+  constexpr double z = 1.959963984540054;
+  const double middle = share + z * z / (2.0 * count);
+  const double half = z * std::sqrt((share * (1.0 - share) + z * z / (4.0 * count)) / count);
+  const double scale = 1.0 + z * z / count;
+  return {std::max(0.0, (middle - half) / scale), std::min(1.0, (middle + half) / scale)};
+}
+
 }  // namespace antigrasp

@@ -37,4 +37,8 @@ Interval BootstrapPercentile(std::vector<double> values, double percent);
 Interval BootstrapPercentileDifference(std::vector<double> a, std::vector<double> b,
                                        double percent);
 
+// Wilson's 95 % score interval of a share of so many independent trials: within 0 and 1, and no
+// point at 0 or 1.
+Interval WilsonInterval(double share, double count);
+
 }  // namespace antigrasp

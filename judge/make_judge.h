@@ -32,7 +32,4 @@ struct JudgeOptions {
 // InputError for trial:NAME of a protocol that does not exist and without MuJoCo.
 std::unique_ptr<Judge> MakeJudge(const std::string& name, const JudgeOptions& options);
 
-// For help and messages.
-inline constexpr const char* kJudges = "epsilon, settled, trial, trial:PROTOCOL or a program";
-
 }  // namespace antigrasp

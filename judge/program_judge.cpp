@@ -194,8 +194,7 @@ class ProgramJudge::Batch {
   void Died() {
     const int code = talk_.program->exit_code();
     if (code == kNoSuchCommand && !talk_.answered) {
-      throw InputError("no command " + judge_.command_, "--judge",
-                       "epsilon, trial, trial:PROTOCOL or a program");
+      throw InputError("no command " + judge_.command_, "--judge", kJudges);
     }
     if (++waiting_.front().deaths > 1) Decide(waiting_.begin(), Verdict::None("judge died"));
     Restart("ended with exit code " + std::to_string(code));

@@ -9,6 +9,9 @@
 
 namespace antigrasp {
 
+// Who may judge (make_judge.h), for help and messages.
+inline constexpr const char* kJudges = "epsilon, settled, trial, trial:PROTOCOL or a program";
+
 struct ProgramLimits {
   double seconds = 60.0;  // without an answer, then the oldest unanswered object is late
   int restarts = 5;       // how often it is started again

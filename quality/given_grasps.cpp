@@ -18,7 +18,8 @@ using Eigen::Vector3d;
 
 constexpr double kRounding = 1e-9;  // m, and of a direction
 constexpr double kNoDirection = 1e-6;
-constexpr double kFar = 1e18;  // m, which no object reaches (local_object.h)
+constexpr double kFarthest = 1e6;  // m: rays are cast in single precision
+constexpr double kFar = 1e18;      // m, which no object reaches (local_object.h)
 constexpr const char* kNotEvaluable = "not evaluable";
 
 // Unit; as it is when it is one already, so that it keeps its bits.
@@ -106,6 +107,7 @@ class Scorer {
     }
     if (!(given.axis.stableNorm() > 0.0)) return kNoPose;
     grasp->center = object_.scale * (given.center / unit - object_.place);
+    if (!(grasp->center.stableNorm() < kFarthest)) return kNoPose;
     grasp->axis = Unit(given.axis);
     if (given.approach.stableNorm() > 0.0) {
       const Vector3d way = Unit(given.approach), across = way - way.dot(grasp->axis) * grasp->axis;

@@ -41,8 +41,8 @@ struct GivenScore {
   // "ok": as planned both jaws first touch the object from outside, within their friction cones.
   // Else epsilon is 0: "starts inside" (an open jaw is in the object), "misses" (a jaw meets
   // nothing on its way to the centre: the grasp is beside the object), "slips". Not scored: "too
-  // wide" (more than the jaws open), "no pose" (a number is missing or infinite, no direction),
-  // "not evaluable" (the object is not).
+  // wide" (more than the jaws open), "no pose" (a number is missing, infinite or beyond 1,000 km,
+  // no direction), "not evaluable" (the object is not).
   std::string status;
   double epsilon = 0.0;         // as planned: no noise, friction as it is meant
   double robust_quality = 0.0;  // as EvaluateGraspability has it, with the draws of `candidate`

@@ -71,9 +71,15 @@ void SummarizeGrasps(const MetricOptions& options, Graspability* result) {
   result->mean = sum / count;
   result->fraction_nonzero = nonzero / count;
   if (options.summary == Summary::kMean) {
+    result->value = result->mean;
+    if (options.closing == ClosingEnd::kSettled) {  // a share
+      const Interval share = WilsonInterval(result->mean, count);
+      result->ci_low = share.low;
+      result->ci_high = share.high;
+      return;
+    }
     const MeanInterval mean = MeanWithInterval(qualities);
     const double half = mean.count > 1 ? mean.half_width : 0.0;
-    result->value = result->mean;
     result->ci_low = result->mean - half;
     result->ci_high = result->mean + half;
     return;

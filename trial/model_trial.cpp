@@ -83,14 +83,6 @@ TrialResult SummarizeSeries(const TrialTable* table, const Series* first,
   return result;
 }
 
-Interval Wilson(double share, double count) {
-  constexpr double z = 1.959963984540054;
-  const double middle = share + z * z / (2.0 * count);
-  const double half = z * std::sqrt((share * (1.0 - share) + z * z / (4.0 * count)) / count);
-  const double scale = 1.0 + z * z / count;
-  return {std::max(0.0, (middle - half) / scale), std::min(1.0, (middle + half) / scale)};
-}
-
 }  // namespace
 
 double FrictionCoefficient(double angle_degrees, FrictionReading reading) {
@@ -123,7 +115,7 @@ Share ShareOfSeries(const std::vector<int>& held, int each) {
   }
   const double variance = squares / (std::max(series - 1.0, 1.0) * series);  // of the mean
   const double worth = variance > 0.0 ? share.value * (1.0 - share.value) / variance : series;
-  share.interval = Wilson(share.value, std::clamp(worth, series, executions));
+  share.interval = WilsonInterval(share.value, std::clamp(worth, series, executions));
   return share;
 }
 

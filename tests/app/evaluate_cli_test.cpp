@@ -1,5 +1,6 @@
 // The commands evaluate and quality: every column of their tables by name, against the library.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -41,6 +42,19 @@ void WriteMovedBox(const fs::path& path) {
 Graspability Scored(const fs::path& path, const MetricOptions& metric, std::uint64_t seed) {
   return EvaluateGraspability(Repair(ReadMesh(path)).mesh, metric, seed,
                               StreamOf(path.filename().string()));
+}
+
+// popen's own redirection must not take it: the command's standard output is the device.
+TEST(EvaluateCli, ATableThatStandardOutputCannotTakeIsAnError) {
+  if (::access("/dev/full", W_OK) != 0) GTEST_SKIP() << "no /dev/full";
+  const Outcome outcome = Shell("{ " + std::string(ANTIGRASP_BINARY) + " gripper > /dev/full; }");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.text.find("cannot write to standard output"), std::string::npos)
+      << outcome.text;
+}
+
+TEST(EvaluateCli, AJudgeWithoutANameIsRefused) {
+  ExpectRefused("evaluate nothing.stl --judge ''", "expected epsilon, settled, trial");
 }
 
 TEST(EvaluateCli, WritesEveryNumberOfAScoreUnderItsOwnName) {

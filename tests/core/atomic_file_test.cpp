@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <filesystem>
@@ -28,6 +29,28 @@ std::string Refusal(const std::function<void()>& action) {
     return error.what();
   }
   return "no error";
+}
+
+TEST(AtomicFile, RefusesWhatIsNoFileAndLeavesItThere) {
+  const shapes::TempFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_NE(Refusal([&] { WriteFileAtomic(pipe, "bytes"); }).find("not a device, pipe or socket"),
+            std::string::npos);
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_EQ(FilesIn(folder.path()), 1);
+  EXPECT_NE(Refusal([&] { WriteFileAtomic("/dev/null", "bytes"); }), "no error");
+}
+
+TEST(AtomicFile, WritesWhereALinkLeadsTo) {
+  const shapes::TempFolder folder;
+  const fs::path target = folder.path() / "a.txt", link = folder.path() / "link";
+  WriteFileAtomic(target, "old");
+  fs::create_symlink("a.txt", link);
+  WriteFileAtomic(link, "new");
+  EXPECT_TRUE(fs::is_symlink(link));
+  std::ifstream file(target);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "new");
 }
 
 TEST(AtomicFile, LeavesTheOldFileWhenNotCommitted) {

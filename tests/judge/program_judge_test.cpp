@@ -153,7 +153,7 @@ TEST(ProgramJudge, ACommandThatDoesNotExistIsRefused) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "no command no-such-judge --fast (--judge): expected epsilon, trial, "
+                 "no command no-such-judge --fast (--judge): expected epsilon, settled, trial, "
                  "trial:PROTOCOL or a program");
   }
   ProgramJudge deaf(Odd("deaf"), {}, kPatient);

@@ -145,7 +145,7 @@ TEST_F(GivenOnABox, WhatIsNoPoseOfTheGripperIsNotScored) {
   for (const GivenScore& score :
        {Of({0, nan, 0}, x_), Of({0, 0, 0}, {0, 0, 0}), Of({0, 0, 0}, {1, 0, nan}),
         Of({0, 0, 0}, x_, nan), Of({0, 0, 0}, x_, -1.0), Of({0, 0, 0}, x_, 0.0, -2.0 * x_),
-        Of({0, 0, 1.0 / 0.0}, x_)}) {
+        Of({0, 0, 1.0 / 0.0}, x_), Of({1e23, 0, 0}, x_), Of({0, -1e300, 0}, x_)}) {
     EXPECT_EQ(score.status, "no pose");
     EXPECT_FALSE(score.scored());
     EXPECT_FALSE(score.reachable.has_value());

@@ -95,6 +95,18 @@ TEST(TipQuality, TheSettledPresetIsTheShareOfGraspsHeld) {
   EXPECT_DOUBLE_EQ(easy.value, held / 40.0);
 }
 
+// A share: Wilson's interval stays within 0 and 1 and is no point at its ends.
+TEST(TipQuality, TheIntervalOfAShareIsWithinZeroAndOne) {
+  MetricOptions options;
+  ApplyMetricPreset("settled", &options);
+  ApplyNoisePreset("none", &options);
+  options.num_grasps = 10;
+  const Graspability all = EvaluateGraspability(shapes::Box({0.04, 0.05, 0.06}), options, 1, 1);
+  EXPECT_EQ(all.value, 1.0);
+  EXPECT_NEAR(all.ci_low, 0.722, 0.001);  // Wilson, 10 of 10
+  EXPECT_EQ(all.ci_high, 1.0);
+}
+
 TEST(TipQuality, WithoutNoiseEveryGraspOfABoxSettles) {
   MetricOptions options;
   ApplyMetricPreset("settled", &options);
