@@ -154,9 +154,7 @@ void AddJudgeFlags(CLI::App* command, EvaluateFlags* flags) {
       command->add_option("--judge", flags->judge,
                           std::string("who scores every object, too: ") + kJudges +
                               " (docs/judges.md); columns judge and judge_status of the scores");
-  judge->excludes("--hardest")->check([](const std::string& name) {
-    return name.empty() ? std::string("expected ") + kJudges : std::string();
-  });
+  judge->excludes("--hardest")->check(&NoJudge);
   command
       ->add_option("--judge-limit", flags->limits.seconds,
                    "of a program: seconds without an answer, then an object is late")

@@ -125,10 +125,8 @@ int RunProgram(int argc, char** argv, const std::function<void(CLI::App*)>& add_
   InstallSignalHandlers();
   try {
     const int code = Parse(argc, argv, add_commands);
-    if (code == 0 && std::fflush(stdout) != 0) {
-      return Fail(kFailure, "cannot write to standard output");
-    }
-    return code;
+    const bool written = code != 0 || std::fflush(stdout) == 0;
+    return written ? code : Fail(kFailure, "cannot write to standard output");
   } catch (const InputError& error) {
     return Fail(kBadInput, error.what());
   } catch (const Interrupted&) {

@@ -11,6 +11,10 @@ namespace antigrasp {
 
 // Who may judge (make_judge.h), for help and messages.
 inline constexpr const char* kJudges = "epsilon, settled, trial, trial:PROTOCOL or a program";
+// What is wrong with a name that a user gave; empty: nothing.
+inline std::string NoJudge(const std::string& name) {
+  return name.empty() ? std::string("expected ") + kJudges : std::string();
+}
 
 struct ProgramLimits {
   double seconds = 60.0;  // without an answer, then the oldest unanswered object is late
