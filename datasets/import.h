@@ -22,8 +22,8 @@ constexpr auto ChoicesOf(ImportScale) {
 struct ImportOptions {
   int resolution = 32;
   ImportScale scale = ImportScale::kSet;
-  LengthUnit units = LengthUnit::kM;  // meshes whose files know theirs are turned into it
   int threads = 0;                    // 0 = all; the set does not depend on it
+  LengthUnit units = LengthUnit::kM;  // meshes whose files know theirs are turned into it
 };
 
 // With one factor for all, an object more than this many times as long as the set's median (lower)
