@@ -112,11 +112,12 @@ MeshFile ReadByExtension(const std::filesystem::path& path, MeshFormat format) {
 
 MeshFile ReadMeshFile(const std::filesystem::path& path) {
   RequireFile(path, Expected(kReadableFormats));
-  const MeshFormat format = RequireReadableFormat(path);
+  FileKind kind = FileKind::kMesh;
   try {
+    const MeshFormat format = RequireReadableFormat(path);
+    if (format == MeshFormat::k3mf) kind = FileKind::kZip;
     return ReadByExtension(path, format);
   } catch (const InputError&) {
-    const FileKind kind = format == MeshFormat::k3mf ? FileKind::kZip : FileKind::kMesh;
     RefuseOtherKind(path, kind, "a mesh", Expected(kReadableFormats));
     throw;
   }

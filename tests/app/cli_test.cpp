@@ -129,7 +129,7 @@ TEST(Cli, RefusesBadInputInOneLineAndWritesNothing) {
   ExpectRefused("evaluate " + dir + "not.h5", "not.h5");
   ExpectRefused("evaluate " + dir + "missing.stl", "missing.stl");
   ExpectRefused("evaluate " + dir + "none --friction -1", "metric.friction");
-  ExpectRefused("evaluate " + dir + "none --preset eggs", "one of default, dexnet, egad");
+  ExpectRefused("evaluate " + dir + "none --preset eggs", "one of default, settled, dexnet, egad");
   ExpectRefused("quality " + dir + "none.csv", "no such file");
   ExpectRefused("export " + dir + "not.h5 --out " + dir + "e", "not.h5");
   ExpectRefused("export " + dir + "not.h5 --size-mm nan --out " + dir + "e", "nan");

@@ -90,7 +90,7 @@ class Documents(unittest.TestCase):
         cls.must("sample", "runs/demo", "--count", "3", "--out", "samples.h5")
         cls.must("dataset", "make", "cylinders", "--count", "3", "--seed", "6", "--out", "prior.h5")
         tour = dict(examples("docs/commands.md"))
-        for table in ("cube.csv", "mine.csv"):
+        for table in ("cube.csv", "my_grasps.csv"):
             (cls.folder / table).write_text("\n".join(tour[f"cat {table}"]) + "\n")
 
     def check(self, document):
