@@ -24,8 +24,8 @@ struct JudgeOptions {
 
 // Who judges, by name:
 //   epsilon         graspability, today's metric (EvaluateGraspability)
-//   settled         share of settled grasps that hold, 0 to 1 (JudgeSettled): what trials say, at
-//                   a thirtieth of their cost an execution (docs/metric.md)
+//   settled         share of settled grasps that hold, 0 to 1 (JudgeSettled): what follows
+//                   trials, at a small part of their cost (docs/metric.md)
 //   trial           share of executions held, 0 to 1, by the protocol six-ways (PhysicsTrials)
 //   trial:PROTOCOL  by another one, with the friction and mass that it lays down
 //   anything else   a program (ProgramJudge)

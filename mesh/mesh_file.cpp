@@ -112,13 +112,14 @@ MeshFile ReadByExtension(const std::filesystem::path& path, MeshFormat format) {
 
 MeshFile ReadMeshFile(const std::filesystem::path& path) {
   RequireFile(path, Expected(kReadableFormats));
-  FileKind kind = FileKind::kMesh;
+  bool zipped = false;
   try {
     const MeshFormat format = RequireReadableFormat(path);
-    if (format == MeshFormat::k3mf) kind = FileKind::kZip;
+    zipped = format == MeshFormat::k3mf;
     return ReadByExtension(path, format);
   } catch (const InputError&) {
-    RefuseOtherKind(path, kind, "a mesh", Expected(kReadableFormats));
+    RefuseOtherKind(path, zipped ? FileKind::kZip : FileKind::kMesh,
+                    zipped ? "a 3MF file" : "a mesh", Expected(kReadableFormats));
     throw;
   }
 }

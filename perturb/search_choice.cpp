@@ -15,8 +15,8 @@ bool OnTheMetric(const SearchChoice& choice) { return choice.objective == kEpsil
 
 void BindObjective(OptionTable* table, SearchChoice* choice) {
   table->Add("search.objective", &choice->objective, {},
-             "what is minimised: epsilon, the metric, by a descent; or what a judge says: trial, "
-             "trial:PROTOCOL or a program (docs/judges.md)");
+             "what is minimised: epsilon, the metric, by a descent; or what a judge says: "
+             "settled, trial, trial:PROTOCOL or a program (docs/judges.md)");
 }
 
 // A few executions an object are enough: evolution averages over its generations.
@@ -58,7 +58,7 @@ void RequireUsed(const SearchChoice& choice,
     if (known || text.empty() || option.key == "search.objective") continue;
     throw InputError(
         "the search on " + choice.objective + " has no such thing", text,
-        OnTheMetric(choice) ? "--objective trial, or another judge" : "--objective epsilon");
+        OnTheMetric(choice) ? "--objective settled, or another judge" : "--objective epsilon");
   }
 }
 

@@ -5,6 +5,7 @@ import csv
 import filecmp
 import math
 import pathlib
+import shutil
 import sys
 import time
 
@@ -43,7 +44,12 @@ class Job:
 
     def run(self):
         self.target.parent.mkdir(parents=True, exist_ok=True)
-        call(*self.arguments)
+        try:
+            call(*self.arguments)
+        except BaseException:  # what an interrupted perturb has done by then would count as done
+            if self.target.name == "perturb.csv":
+                shutil.rmtree(self.target.parent)
+            raise
 
 
 def folder_name(label):

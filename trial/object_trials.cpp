@@ -1,5 +1,7 @@
 #include "antigrasp/trial/object_trials.h"
 
+#include <malloc.h>
+
 #include <cstdio>
 #include <optional>
 
@@ -88,24 +90,16 @@ class Call {
       const Side& side = sides[static_cast<std::size_t>(i % side_count)];
       return TrialRun{ChoiceName(options_.protocol), side.name, masses, metric_.friction};
     };
-    // Engines stay: megabytes that came and went with every object would tear holes into the heap.
-    const int at_once = many ? threads : 1;
-    std::vector<std::unique_ptr<PhysicsTrials>> trials(SlotsOf(at_once));
-    std::vector<Tried> tried(trials.size());
-    OrderedStream(
-        count, at_once,
-        [&](std::int64_t i, std::size_t slot) {
-          if (trials[slot] == nullptr) {
-            trials[slot] = std::make_unique<PhysicsTrials>(metric_, options, request_.seed,
-                                                           many ? 1 : threads);
-          }
-          tried[slot] = TryOne(sides[static_cast<std::size_t>(i % side_count)], i / side_count,
-                               run_of(i), trials[slot].get());
+    StreamInOrder(
+        count, many ? threads : 1,
+        [&](std::int64_t i) {
+          PhysicsTrials trials(metric_, options, request_.seed, many ? 1 : threads);
+          return TryOne(sides[static_cast<std::size_t>(i % side_count)], i / side_count, run_of(i),
+                        &trials);
         },
-        [&](std::int64_t i, std::size_t slot) {
-          found[static_cast<std::size_t>(i % side_count)].push_back(tried[slot].summary);
-          Record(run_of(i), tried[slot]);
-          tried[slot] = {};
+        [&](std::int64_t i, const Tried& tried) {
+          found[static_cast<std::size_t>(i % side_count)].push_back(tried.summary);
+          Record(run_of(i), tried);
         },
         observer_.Phase("trials, " + std::string(masses) + " mass"));
     results_.means.Add({ChoiceName(options_.protocol), "after", masses, metric_.friction},
@@ -192,10 +186,19 @@ std::vector<std::int64_t> InOrder(std::int64_t count) {
   return places;
 }
 
+// Arrays of megabytes come and go with every object. After the first ones glibc takes such from its
+// heap, where what outlives an object then lies between them: memory would grow with the set.
+void KeepLargeArraysOffTheHeap() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 64 * 1024);
+#endif
+}
+
 }  // namespace
 
 PhysicsTrialReport TryInPhysics(const PhysicsTrialRequest& request, const MetricOptions& metric,
                                 const PhysicsTrialOptions& options, RunObserver* observer) {
+  KeepLargeArraysOffTheHeap();
   PhysicsTrialReport report;
   const ObjectSource objects(request.inputs, GridUnit::kOfFiles, UnitToReadIn(metric));
   std::optional<ObjectSource> originals;

@@ -30,6 +30,7 @@ struct PhysicsTrialReport {
 // Tries object after object, each beside its original where there are originals, at the own mass of
 // both and at an equal one. Fills the folder with trials.csv, means.csv, executions.csv,
 // replays.json and trial.toml. Memory does not grow with the number of objects but for a row each.
+// Sets malloc's threshold of the process for that (glibc).
 // InputError, with nothing written, when no object could be tried.
 PhysicsTrialReport TryInPhysics(const PhysicsTrialRequest& request, const MetricOptions& metric,
                                 const PhysicsTrialOptions& options, RunObserver* observer);

@@ -73,7 +73,7 @@ TEST(JudgedSearchCli, RefusesAnUnknownProtocolAndOptionsOfTheOtherSearch) {
   const std::string search = "perturb search " + dir + "cube.stl --out " + dir + "out ";
   ExpectRefused(search + "--objective trial:robot", "no protocol robot");
   ExpectRefused(search + "--objective trial --alpha 20", "--alpha 20");
-  ExpectRefused(search + "--hausdorff 3", "--objective trial");
+  ExpectRefused(search + "--hausdorff 3", "--objective settled");
   EXPECT_FALSE(fs::exists(folder / "out/perturb.csv"));
 }
 
