@@ -11,6 +11,7 @@
 #include "antigrasp/app/network_commands.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/judge/make_judge.h"
+#include "antigrasp/perturb/hold_descent.h"
 #include "antigrasp/train/run_request.h"
 
 namespace antigrasp {
@@ -27,19 +28,6 @@ struct TrainFlags {
   bool overwrite = false;
 };
 
-// --set takes every word up to the next option, so also a configuration that stands behind the
-// settings: the word that is no KEY=VALUE.
-void TakeConfigFromSettings(RunRequest* flags) {
-  const auto config =
-      std::find_if(flags->overrides.begin(), flags->overrides.end(), [](const std::string& word) {
-        const std::size_t equals = word.find('=');
-        return equals == std::string::npos || word.find('/') < equals;
-      });
-  if (config == flags->overrides.end() || !flags->config.empty()) return;
-  flags->config = *config;
-  flags->overrides.erase(config);
-}
-
 // Of a run whose cem.score is not the metric's.
 std::unique_ptr<Judge> JudgeOf(const RunConfig& config) {
   constexpr std::string_view kProgram = "judge:";
@@ -49,13 +37,22 @@ std::unique_ptr<Judge> JudgeOf(const RunConfig& config) {
       name, {config.metric, AtEqualMass(), {}, config.seed, config.threads, &ThrowIfInterrupted});
 }
 
+// Of a run with cem.refine_steps.
+TriangleMesh Refined(const TriangleMesh& mesh, const RunConfig& config, const BoundingBox& within,
+                     std::uint64_t seed) {
+  DescentOptions options;
+  options.steps = config.cem.refine_steps;
+  options.budget.hausdorff = config.cem.refine_hausdorff;
+  return RefinedSolid(mesh, config.metric, options, within, seed);
+}
+
 RunResult Start(const TrainFlags& flags, RunObserver* console) {
   const RunConfig config = ConfigOf(flags.run);
   WarnOfLengths(config.metric);
   const OldRun old_run = flags.overwrite   ? OldRun::kReplace
                          : flags.or_resume ? OldRun::kGoOn
                                            : OldRun::kRefuse;
-  return StartRun(config, flags.out, old_run, console, &JudgeOf);
+  return StartRun(config, flags.out, old_run, console, {&JudgeOf, &Refined});
 }
 
 void Train(const TrainFlags& flags) {
@@ -73,7 +70,7 @@ void Train(const TrainFlags& flags) {
   try {
     const RunResult result = flags.resume.empty()
                                  ? Start(flags, &console)
-                                 : ResumeRun(flags.resume, &console, MakeGan, &JudgeOf);
+                                 : ResumeRun(flags.resume, &console, MakeGan, {&JudgeOf, &Refined});
     std::printf("%s", StatisticsTable(result.stages, result.control).c_str());
     std::printf("run: %s\n", folder.c_str());
     const RunFolder run{folder};

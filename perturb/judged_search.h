@@ -20,9 +20,9 @@ namespace antigrasp {
 //   such that   the budget is kept (change_budget.h), and the result is a printable solid
 //
 // 1. Descents, from a few random starts. Their objective is cheap and has a slope: the share of
-//    executions whose contacts keep within their friction cones (EvaluateMeanHold), and penalties
-//    at the rims of the budget; Adam on the field. What they come to is pulled back towards the
-//    original until it keeps the budget, and judged.
+//    executions whose contacts keep within their friction cones, and penalties at the rims of the
+//    budget (hold_descent.h). What they come to is pulled back towards the original until it
+//    keeps the budget, and judged.
 // 2. Evolution (CMA-ES, evolution.h) on the judge alone, from the best of these: a coarse field on
 //    top, grasps and draws new in every generation and the same for all of one.
 // 3. The best ones are judged anew beside the original; the original stays if none is better.
@@ -39,9 +39,6 @@ struct JudgedSearchOptions {
   int judge_draws = 4;    // executions of each
 };
 void Bind(OptionTable* table, JudgedSearchOptions* options);  // keys "search.*"
-
-// The radius of the field, percent of the diagonal.
-double FieldRadius(const JudgedSearchOptions& options);
 
 // The mesh must be a solid (failure otherwise). The result depends on the mesh, the options, the
 // stream and the judge, not on the number of threads (0 = all). result.iterations counts steps and

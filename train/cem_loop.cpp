@@ -24,13 +24,13 @@ StageScorer JudgedScorer(const RunConfig& config, Judge* judge, RunObserver* obs
 }
 
 CemLoop::CemLoop(const RunConfig& config, ShapeModel* model, torch::Tensor prior,
-                 StageScorer scorer, RunObserver* observer)
+                 StageScorer scorer, RunObserver* observer, EliteRefiner refine)
     : config_(config),
       model_(model),
       prior_(std::move(prior)),
       scorer_(std::move(scorer)),
       observer_(observer),
-      selector_(config, prior_) {
+      selector_(config, prior_, std::move(refine)) {
   TrainOn(prior_);
 }
 
@@ -91,7 +91,10 @@ Episode CemLoop::Finish() {
     throw RuntimeFailure("episode " + std::to_string(number) + ": none of " +
                          std::to_string(config_.cem.samples) + " samples is a usable object");
   }
-  episode.elites = selector_.Elites(episode.scored, episode.selection);
+  const bool refine = config_.cem.refine_steps > 0;
+  episode.elites = selector_.Elites(
+      episode.scored, episode.selection, number,
+      refine ? observer_->Phase(StageName(number, "refining the elites")) : ProgressFn());
   episode.row = Summarize(number, episode.scored, prior_, config_);
   for (const std::int64_t i : episode.selection.elites) {
     const double value = episode.scored.graspabilities[static_cast<std::size_t>(i)];

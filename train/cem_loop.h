@@ -46,9 +46,9 @@ struct Episode {
 // configuration it takes seed, start (whether there is one), fine_tune, model, cem and threads.
 class CemLoop {
  public:
-  // `prior`: network values [N, 1, n, n, n] float16, N > 0.
+  // `prior`: network values [N, 1, n, n, n] float16, N > 0; `refine`: for cem.refine_steps > 0.
   CemLoop(const RunConfig& config, ShapeModel* model, torch::Tensor prior, StageScorer scorer,
-          RunObserver* observer);
+          RunObserver* observer, EliteRefiner refine = nullptr);
 
   // Episode 0. With config.start the model has those networks already: it trains them on when
   // config.fine_tune, and else samples them as they are.

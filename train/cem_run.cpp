@@ -96,6 +96,7 @@ void RequireFittingStart(const RunConfig& config) {
 void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder& control) {
   RunConfig forked = config;
   forked.cem.select = EliteOrder::kRandom;
+  forked.cem.refine_steps = 0;
   forked.cem.control = false;
   forked.stl_count = 0;
   WriteFileAtomic(control.Prior(), ReadFile(run.Prior()));
@@ -107,19 +108,24 @@ void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder&
 }
 
 // nullptr: the graspability scores.
-std::unique_ptr<Judge> JudgeFor(const RunConfig& config, const JudgeMaker& make_judge) {
+std::unique_ptr<Judge> JudgeFor(const RunConfig& config, const RunParts& parts) {
+  if (config.cem.refine_steps > 0 && !parts.refine) {
+    throw InputError("nobody refines elites for cem.refine_steps", "configuration", "0");
+  }
   if (config.cem.score == kEpsilonScore) return nullptr;
-  if (make_judge) return make_judge(config);
+  if (parts.make_judge) return parts.make_judge(config);
   throw InputError("no judge for cem.score = " + config.cem.score, "configuration", kEpsilonScore);
 }
 
 RunResult Finish(const RunConfig& config, const RunFolder& folder, const torch::Tensor& prior,
-                 ProvenanceRecorder* recorder, const ShapeModelMaker& make, Judge* judge) {
+                 ProvenanceRecorder* recorder, const ShapeModelMaker& make, Judge* judge,
+                 const EliteRefiner& refine) {
   const auto scorer = [&](const RunConfig& of) {
     return judge != nullptr ? JudgedScorer(of, judge, recorder) : GraspabilityScorer(of, recorder);
   };
   RunResult result;
-  result.stages = RunEpisodes(config, folder, make(config).get(), prior, scorer(config), recorder);
+  result.stages =
+      RunEpisodes(config, folder, make(config).get(), prior, scorer(config), recorder, refine);
   if (config.cem.control) {
     const RunFolder control{folder.Control()};
     const RunLock lock(control);
@@ -146,20 +152,20 @@ RunConfig ConfigOfRun(const fs::path& folder) {
 }
 
 RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver* observer,
-                   const ShapeModelMaker& make, const JudgeMaker& make_judge) {
+                   const ShapeModelMaker& make, const RunParts& parts) {
   const RunFolder run{folder};
   RequireNoRun(run);
   Validate(config, "configuration");
   RequireFittingStart(config);
   make(config);  // refuses a device that is not there, first
-  const std::unique_ptr<Judge> judge = JudgeFor(config, make_judge);
+  const std::unique_ptr<Judge> judge = JudgeFor(config, parts);
   const RunLock lock(run);
   RequireNoRun(run);   // that another process has begun and left
   MakeFolder(folder);  // it is there: refuses one that cannot be written to, before the work
   ProvenanceRecorder recorder(run, ProvenanceNow(config), observer);
   const torch::Tensor prior = MakePrior(config, run, &recorder);
   WriteFileAtomic(run.Config(), ToToml(config));
-  return Finish(config, run, prior, &recorder, make, judge.get());
+  return Finish(config, run, prior, &recorder, make, judge.get(), parts.refine);
 }
 
 void RequireInputs(const RunConfig& config, const fs::path& folder) {
@@ -179,15 +185,15 @@ void RequireInputs(const RunConfig& config, const fs::path& folder) {
 }
 
 RunResult ResumeRun(const fs::path& folder, RunObserver* observer, const ShapeModelMaker& make,
-                    const JudgeMaker& make_judge) {
+                    const RunParts& parts) {
   const RunFolder run{folder};
   const RunConfig config = ConfigOfRun(folder);
-  const std::unique_ptr<Judge> judge = JudgeFor(config, make_judge);
+  const std::unique_ptr<Judge> judge = JudgeFor(config, parts);
   const RunLock lock(run);
   ProvenanceRecorder recorder(run, ReadProvenance(run), observer);
   const torch::Tensor prior =
       NetworkValuesOf(ReadShapeSet(run.Prior()), config.model, run.Prior().string());
-  return Finish(config, run, prior, &recorder, make, judge.get());
+  return Finish(config, run, prior, &recorder, make, judge.get(), parts.refine);
 }
 
 }  // namespace antigrasp

@@ -10,6 +10,7 @@
 #include "antigrasp/train/make_gan.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_folder.h"
+#include "antigrasp/train/selection.h"
 #include "antigrasp/train/statistics.h"
 
 namespace antigrasp {
@@ -23,6 +24,12 @@ struct RunResult {
 // Who scores the samples of a run whose cem.score is not "epsilon"; made before the work begins.
 using JudgeMaker = std::function<std::unique_ptr<Judge>(const RunConfig&)>;
 
+// What settings ask of the program that trains, besides the model.
+struct RunParts {
+  JudgeMaker make_judge;  // of a run whose cem.score is not "epsilon"
+  EliteRefiner refine;    // of a run with cem.refine_steps
+};
+
 // The CEM + GAN algorithm (V-B, VI-C): train the GAN on the prior set, then repeatedly sample,
 // remesh, reject, score, keep the least graspable and retrain. `make` puts another shape model in
 // the GAN's place. Every file lands in `folder`, every step of it can be interrupted and resumed
@@ -33,7 +40,7 @@ using JudgeMaker = std::function<std::unique_ptr<Judge>(const RunConfig&)>;
 // losses, no usable sample or a judge that stopped; the last checkpoint is intact.
 RunResult StartRun(const RunConfig& config, const std::filesystem::path& folder,
                    RunObserver* observer, const ShapeModelMaker& make = MakeGan,
-                   const JudgeMaker& make_judge = nullptr);
+                   const RunParts& parts = {});
 
 // What StartRun refuses of its inputs, for those who make room for a run first: InputError when the
 // prior file or the networks to begin with are missing, do not fit or lie in `folder`.
@@ -41,9 +48,9 @@ void RequireInputs(const RunConfig& config, const std::filesystem::path& folder)
 
 // Goes on where the folder's last checkpoint stands; a finished run only reports its numbers. What
 // a killed process left half written is removed. InputError: another process trains the run.
-// `make`, `make_judge`: as the run was started with.
+// `make`, `parts`: as the run was started with.
 RunResult ResumeRun(const std::filesystem::path& folder, RunObserver* observer,
-                    const ShapeModelMaker& make = MakeGan, const JudgeMaker& make_judge = nullptr);
+                    const ShapeModelMaker& make = MakeGan, const RunParts& parts = {});
 
 // The configuration the run in `folder` was started with. InputError when there is none.
 RunConfig ConfigOfRun(const std::filesystem::path& folder);

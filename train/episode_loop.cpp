@@ -31,7 +31,8 @@ constexpr int kRecordEvery = 10;  // updates between rows of losses.csv
 class FolderLoop {
  public:
   FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeModel* model,
-             const torch::Tensor& prior, StageScorer scorer, RunObserver* observer);
+             const torch::Tensor& prior, StageScorer scorer, RunObserver* observer,
+             EliteRefiner refine);
   std::vector<StageStatistics> Run();
 
  private:
@@ -63,12 +64,13 @@ class FolderLoop {
 };
 
 FolderLoop::FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeModel* model,
-                       const torch::Tensor& prior, StageScorer scorer, RunObserver* observer)
+                       const torch::Tensor& prior, StageScorer scorer, RunObserver* observer,
+                       EliteRefiner refine)
     : config_(config),
       folder_(folder),
       model_(model),
       observer_(observer),
-      loop_(config, model, prior, std::move(scorer), observer),
+      loop_(config, model, prior, std::move(scorer), observer, std::move(refine)),
       losses_{model->ScalarNames(), {}} {}
 
 std::vector<StageStatistics> FolderLoop::Run() {
@@ -227,8 +229,10 @@ void FolderLoop::Save(const fs::path& path, bool finished) const {
 
 std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolder& folder,
                                          ShapeModel* model, const torch::Tensor& prior,
-                                         StageScorer scorer, RunObserver* observer) {
-  return FolderLoop(config, folder, model, prior, std::move(scorer), observer).Run();
+                                         StageScorer scorer, RunObserver* observer,
+                                         EliteRefiner refine) {
+  return FolderLoop(config, folder, model, prior, std::move(scorer), observer, std::move(refine))
+      .Run();
 }
 
 }  // namespace antigrasp

@@ -19,6 +19,7 @@ namespace antigrasp {
 // is another model's.
 std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolder& folder,
                                          ShapeModel* model, const torch::Tensor& prior,
-                                         StageScorer scorer, RunObserver* observer);
+                                         StageScorer scorer, RunObserver* observer,
+                                         EliteRefiner refine = nullptr);
 
 }  // namespace antigrasp

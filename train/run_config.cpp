@@ -24,6 +24,10 @@ void Bind(OptionTable* table, CemOptions* o) {
   table->Add("cem.restart", &o->restart, "fresh networks each episode instead of going on");
   table->Add("cem.redistance", &o->redistance,
              "train on the exact distances to the elites' meshes, not on the generator's values");
+  table->Add("cem.refine_steps", &o->refine_steps, 0, 1e6,
+             "steps of the search that changes every elite before it is learnt from; 0 = none");
+  table->Add("cem.refine_hausdorff", &o->refine_hausdorff, 0.1, 50,
+             "how far that may move its surface, percent of the bounding box's diagonal");
   table->Add("cem.prior_fraction", &o->prior_fraction, 0, 10,
              "prior shapes (latent mode: fresh z) mixed into the elites, as a share of them");
   table->Add("cem.check_self_intersection", &o->check_self_intersection,
@@ -99,6 +103,10 @@ void Validate(const RunConfig& config, const std::string& origin) {
   if (config.cem.keep > config.cem.samples) {
     throw InputError("cem.keep = " + std::to_string(config.cem.keep), origin,
                      "at most cem.samples = " + std::to_string(config.cem.samples));
+  }
+  if (config.cem.refine_steps > 0 && config.cem.mode == EpisodeMode::kLatent) {
+    throw InputError("cem.refine_steps with cem.mode = latent", origin,
+                     "cem.mode = gan: in latent mode no elite is learnt from");
   }
   if (config.gan.batch % config.model.pack != 0) {
     throw InputError("model.pack = " + std::to_string(config.model.pack), origin,

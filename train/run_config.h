@@ -55,7 +55,11 @@ struct CemOptions {
   bool restart = false;  // fresh networks each episode instead of going on
   // Elites are learnt from as the exact distances to their meshes, not as what the generator drew.
   bool redistance = false;
-  double prior_fraction = 0.0;  // prior shapes mixed into the elites, as a share of `keep`
+  // Steps of a descent on the share of grasps that hold, at the metric's friction, which every
+  // elite is changed by before it is learnt from (refined_elites.h). 0 = none.
+  int refine_steps = 0;
+  double refine_hausdorff = 5.0;  // how far its surface may move, percent of its diagonal
+  double prior_fraction = 0.0;    // prior shapes mixed into the elites, as a share of `keep`
   bool check_self_intersection = true;
   bool control = false;        // also run the random-keep control from the same episode 0
   int prior_scored = 500;      // prior shapes scored for kappa; 0 = all

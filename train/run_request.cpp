@@ -1,5 +1,7 @@
 #include "antigrasp/train/run_request.h"
 
+#include <algorithm>
+
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/error.h"
@@ -15,6 +17,19 @@ ModelOptions ModelOf(const std::string& networks) {
 }
 
 }  // namespace
+
+// --set takes every word up to the next option, so also a configuration that stands behind the
+// settings: the word that is no KEY=VALUE.
+void TakeConfigFromSettings(RunRequest* request) {
+  const auto config = std::find_if(request->overrides.begin(), request->overrides.end(),
+                                   [](const std::string& word) {
+                                     const std::size_t equals = word.find('=');
+                                     return equals == std::string::npos || word.find('/') < equals;
+                                   });
+  if (config == request->overrides.end() || !request->config.empty()) return;
+  request->config = *config;
+  request->overrides.erase(config);
+}
 
 RunConfig ConfigOf(const RunRequest& request) {
   RunConfig config;
@@ -43,20 +58,20 @@ RunConfig ConfigOf(const RunRequest& request) {
 }
 
 RunResult StartRun(const RunConfig& config, const std::filesystem::path& folder, OldRun old_run,
-                   RunObserver* observer, const JudgeMaker& make_judge) {
+                   RunObserver* observer, const RunParts& parts) {
   const RunFolder run{folder};
   if (old_run == OldRun::kGoOn && run.HoldsARun()) {
     if (ToToml(ConfigOfRun(run.root)) != ToToml(config)) {
       throw InputError("the run in " + folder.string() + " was started with other settings",
                        run.Config().string(), "the same settings, --overwrite or another --out");
     }
-    return ResumeRun(run.root, observer, MakeGan, make_judge);
+    return ResumeRun(run.root, observer, MakeGan, parts);
   }
   if (old_run == OldRun::kReplace && run.HoldsARun()) {
     RequireInputs(config, run.root);  // what is refused costs no run
     run.Remove();
   }
-  return StartRun(config, folder, observer, MakeGan, make_judge);
+  return StartRun(config, folder, observer, MakeGan, parts);
 }
 
 }  // namespace antigrasp

@@ -23,6 +23,10 @@ struct RunRequest {
   bool from_scratch = false;  // no networks to begin with
 };
 
+// Takes a configuration that stands behind settings for one: the first of the overrides that is no
+// KEY=VALUE, when there is no other configuration.
+void TakeConfigFromSettings(RunRequest* request);
+
 // The settings that this comes to. InputError for what is unknown, out of range or does not fit.
 RunConfig ConfigOf(const RunRequest& request);
 
@@ -33,6 +37,6 @@ enum class OldRun {
   kReplace  // once nothing speaks against the new one's inputs
 };
 RunResult StartRun(const RunConfig& config, const std::filesystem::path& folder, OldRun old_run,
-                   RunObserver* observer, const JudgeMaker& make_judge = nullptr);
+                   RunObserver* observer, const RunParts& parts = {});
 
 }  // namespace antigrasp

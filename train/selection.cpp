@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "antigrasp/core/check.h"
 #include "antigrasp/core/rng.h"
 #include "antigrasp/sdf/mesh_to_sdf.h"
 #include "antigrasp/train/elites.h"
@@ -36,23 +37,17 @@ torch::Tensor Rows(const torch::Tensor& values, const std::vector<std::int64_t>&
   return values.index_select(0, torch::tensor(indices, torch::kLong));
 }
 
-// Network values of the distances to the meshes. What a grid holds far from its surface, or never
-// closed into one, is gone.
-torch::Tensor ExactValues(const ScoredStage& scored, const std::vector<std::int64_t>& indices,
-                          const RunConfig& config) {
-  ShapeSet exact;
-  exact.grids.assign(indices.size(), UnitCubeGrid(config.model.resolution));
-  ParallelFor(static_cast<std::int64_t>(indices.size()), config.threads, [&](std::int64_t i) {
-    const auto object = static_cast<std::size_t>(indices[static_cast<std::size_t>(i)]);
-    MeshToSdf(scored.objects[object].mesh, &exact.grids[static_cast<std::size_t>(i)]);
-  });
-  return NetworkValuesOf(exact, config.model, "the elites");
+// A cell's distance from the outermost nodes: marching cubes close what lies inside, and a
+// generator's blur has room.
+BoundingBox RoomFor(const SdfGrid& grid) {
+  return {grid.Node(1, 1, 1), grid.Node(grid.n - 2, grid.n - 2, grid.n - 2)};
 }
 
 }  // namespace
 
-EliteSelector::EliteSelector(const RunConfig& config, torch::Tensor prior)
-    : config_(config), prior_(std::move(prior)) {
+EliteSelector::EliteSelector(const RunConfig& config, torch::Tensor prior, EliteRefiner refine)
+    : config_(config), prior_(std::move(prior)), refine_(std::move(refine)) {
+  AG_CHECK(config_.cem.refine_steps == 0 || refine_, "somebody refines the elites");
   if (config_.cem.variant != EliteRule::kStratified) return;
   const std::vector<std::int64_t> chosen =
       Draw(Every(prior_.size(0)), config_.cem.cells, RngStream(config_.seed, "cells"));
@@ -105,9 +100,32 @@ Selection EliteSelector::Select(const ScoredStage& scored, int episode) const {
   return selection;
 }
 
-torch::Tensor EliteSelector::Elites(const ScoredStage& scored, const Selection& selection) const {
-  return config_.cem.redistance ? ExactValues(scored, selection.elites, config_)
-                                : Rows(scored.values, selection.elites);
+torch::Tensor EliteSelector::Elites(const ScoredStage& scored, const Selection& selection,
+                                    int episode, const ProgressFn& progress) const {
+  if (config_.cem.refine_steps == 0 && !config_.cem.redistance) {
+    return Rows(scored.values, selection.elites);
+  }
+  return ExactValues(scored, selection.elites, episode, progress);
+}
+
+// Network values of the distances to the meshes. What a grid holds far from its surface, or never
+// closed into one, is gone.
+torch::Tensor EliteSelector::ExactValues(const ScoredStage& scored,
+                                         const std::vector<std::int64_t>& indices, int episode,
+                                         const ProgressFn& progress) const {
+  ShapeSet exact;
+  exact.grids.assign(indices.size(), UnitCubeGrid(config_.model.resolution));
+  const auto stage = static_cast<std::uint64_t>(episode);
+  const auto fill = [&](std::int64_t i) {
+    const auto object = static_cast<std::size_t>(indices[static_cast<std::size_t>(i)]);
+    const TriangleMesh& mesh = scored.objects[object].mesh;
+    SdfGrid* grid = &exact.grids[static_cast<std::size_t>(i)];
+    if (config_.cem.refine_steps == 0) return MeshToSdf(mesh, grid);
+    const std::uint64_t seed = RngStream(config_.seed, "refine", stage, object).NextU64();
+    MeshToSdf(refine_(mesh, config_, RoomFor(*grid), seed), grid);
+  };
+  ParallelFor(static_cast<std::int64_t>(indices.size()), config_.threads, fill, progress);
+  return NetworkValuesOf(exact, config_.model, "the elites");
 }
 
 torch::Tensor EliteSelector::TrainingSet(const torch::Tensor& elites,

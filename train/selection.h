@@ -3,8 +3,11 @@
 #include <torch/types.h>
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
+#include "antigrasp/core/parallel.h"
+#include "antigrasp/mesh/triangle_mesh.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/stage.h"
 
@@ -15,6 +18,12 @@ struct Selection {
   std::vector<std::int64_t> elites;    // ascending
   std::vector<std::int64_t> replayed;  // prior shapes
 };
+
+// A shape that is harder to grasp than `mesh`, looks like it and lies within the box; the mesh
+// itself where none is found. Unit cube coordinates; `seed` names the random stream; called on any
+// thread.
+using EliteRefiner = std::function<TriangleMesh(const TriangleMesh& mesh, const RunConfig& config,
+                                                const BoundingBox& within, std::uint64_t seed)>;
 
 // Picks elites by the rules of cem.variant:
 //   kPaper        the cem.keep least graspable of all samples (V-B, VI-C).
@@ -28,12 +37,15 @@ struct Selection {
 // puts chance in the place of graspability.
 class EliteSelector {
  public:
-  EliteSelector(const RunConfig& config, torch::Tensor prior);  // prior: network values [N, ...]
+  // prior: network values [N, ...]; refine: for cem.refine_steps, whose elites it changes.
+  EliteSelector(const RunConfig& config, torch::Tensor prior, EliteRefiner refine = nullptr);
   Selection Select(const ScoredStage& scored, int episode) const;
 
-  // Network values [K, 1, n, n, n] of the elites as they are learnt from: those that were sampled
-  // or, with cem.redistance, those of the exact distances to their meshes, float16.
-  torch::Tensor Elites(const ScoredStage& scored, const Selection& selection) const;
+  // Network values [K, 1, n, n, n] of the elites as they are learnt from: those that were sampled;
+  // with cem.redistance those of the exact distances to their meshes, float16; with
+  // cem.refine_steps those of the distances to their meshes as they were refined.
+  torch::Tensor Elites(const ScoredStage& scored, const Selection& selection, int episode,
+                       const ProgressFn& progress) const;
 
   // What the next episode trains on, float16: the elites, then the replayed shapes.
   torch::Tensor TrainingSet(const torch::Tensor& elites, const Selection& selection) const;
@@ -41,8 +53,12 @@ class EliteSelector {
  private:
   std::vector<std::int64_t> CellsOf(const torch::Tensor& values) const;
 
+  torch::Tensor ExactValues(const ScoredStage& scored, const std::vector<std::int64_t>& indices,
+                            int episode, const ProgressFn& progress) const;
+
   const RunConfig& config_;
   torch::Tensor prior_;
+  EliteRefiner refine_;
   torch::Tensor centres_;                             // [cells, r^3] float32
   std::vector<std::vector<std::int64_t>> residents_;  // of each cell: prior shapes
 };

@@ -63,7 +63,7 @@ TEST(CemJudge, TheJudgesScoresChooseTheElitesAndStandInEveryTable) {
   const TempFolder folder;
   StoppingObserver observer;
   const RunResult result =
-      StartRun(Judged(), folder / "run", &observer, MakeGan, MakeTriangles(100));
+      StartRun(Judged(), folder / "run", &observer, MakeGan, {MakeTriangles(100), {}});
   ASSERT_EQ(result.stages.size(), 3U);
   for (int episode = 0; episode < 2; ++episode) {
     const RunFolder run{folder / "run"};
@@ -90,10 +90,10 @@ TEST(CemJudge, TheJudgesScoresChooseTheElitesAndStandInEveryTable) {
 TEST(CemJudge, AJudgeThatStopsEndsTheRunWhichGoesOnWithAnother) {
   const TempFolder folder;
   StoppingObserver observer;
-  StartRun(Judged(), folder / "whole", &observer, MakeGan, MakeTriangles(100));
-  EXPECT_THROW(StartRun(Judged(), folder / "run", &observer, MakeGan, MakeTriangles(4)),
+  StartRun(Judged(), folder / "whole", &observer, MakeGan, {MakeTriangles(100), {}});
+  EXPECT_THROW(StartRun(Judged(), folder / "run", &observer, MakeGan, {MakeTriangles(4), {}}),
                RuntimeFailure);
-  ResumeRun(folder / "run", &observer, MakeGan, MakeTriangles(100));
+  ResumeRun(folder / "run", &observer, MakeGan, {MakeTriangles(100), {}});
   shapes::ExpectSameFiles(folder / "run", folder / "whole");
 }
 
@@ -101,8 +101,9 @@ TEST(CemJudge, WithoutAJudgeOnlyTheMetricScores) {
   const TempFolder folder;
   StoppingObserver observer;
   EXPECT_THROW(StartRun(Judged(), folder / "run", &observer), InputError);
-  EXPECT_THROW(StartRun(Judged("trail"), folder / "run", &observer, MakeGan, MakeTriangles(9)),
-               InputError);
+  EXPECT_THROW(
+      StartRun(Judged("trail"), folder / "run", &observer, MakeGan, {MakeTriangles(9), {}}),
+      InputError);
   EXPECT_FALSE(std::filesystem::exists(folder / "run"));
   const JudgeMaker never = [](const RunConfig&) -> std::unique_ptr<Judge> {
     ADD_FAILURE() << "asked for a judge";
@@ -110,7 +111,7 @@ TEST(CemJudge, WithoutAJudgeOnlyTheMetricScores) {
   };
   RunConfig config = Judged("epsilon");
   config.cem.episodes = 0;
-  StartRun(config, folder / "run", &observer, MakeGan, never);
+  StartRun(config, folder / "run", &observer, MakeGan, {never, {}});
   EXPECT_GT(ReadScores(RunFolder{folder / "run"}.Scores(0)).size(), 0U);
 }
 

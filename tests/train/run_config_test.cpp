@@ -53,6 +53,8 @@ cells = 11
 step = 0.25
 select = "random"
 score = "judge:ours"
+refine_steps = 16
+refine_hausdorff = 1.5
 prior_fraction = 0.75
 prior_scored = 13
 compared = 14
@@ -83,6 +85,8 @@ TEST(RunConfig, BindsEveryKeyToItsOwnField) {
   EXPECT_EQ(config.cem.step, 0.25);
   EXPECT_EQ(config.cem.select, EliteOrder::kRandom);
   EXPECT_EQ(config.cem.score, "judge:ours");
+  EXPECT_EQ(config.cem.refine_steps, 16);
+  EXPECT_EQ(config.cem.refine_hausdorff, 1.5);
   EXPECT_EQ(config.cem.prior_fraction, 0.75);
   EXPECT_EQ(config.cem.prior_scored, 13);
   EXPECT_EQ(config.cem.compared, 14);
@@ -116,6 +120,13 @@ TEST(RunConfig, BindsEverySwitchToItsOwnField) {
       EXPECT_EQ(value(turned) != value(defaults), other == key) << key << " and " << other;
     }
   }
+}
+
+TEST(RunConfig, RefinesElitesOnlyWhereTheyAreLearntFrom) {
+  RunConfig config = FromToml("cem.refine_steps = 5", "x");
+  EXPECT_NO_THROW(Validate(config, "x"));
+  config.cem.mode = EpisodeMode::kLatent;
+  EXPECT_THROW(Validate(config, "x"), InputError);
 }
 
 TEST(RunConfig, ForSamplingKeysOfAnotherVersionAreLeftOutButNotThoseOfTheNetworks) {

@@ -68,7 +68,7 @@ RunConfig Config(EliteRule variant) {
 
 torch::Tensor Learnt(const EliteSelector& selector, const ScoredStage& scored,
                      const Selection& selection) {
-  return selector.TrainingSet(selector.Elites(scored, selection), selection);
+  return selector.TrainingSet(selector.Elites(scored, selection, 1, nullptr), selection);
 }
 
 TEST(EliteSelector, OfThePaperKeepsTheLeastGraspableHoweverAlikeTheyAre) {
@@ -128,6 +128,42 @@ TEST(EliteSelector, RedistancesElitesToTheirMeshes) {
   EXPECT_EQ(learnt.scalar_type(), torch::kHalf);
   EXPECT_LT((learnt - prior).abs().max().item<double>(), 0.03);  // of 0.1: 0.003 of the cube
   EXPECT_GT((scored.values[1] - prior[0]).abs().max().item<double>(), 0.5);
+}
+
+// Two balls, of which the second is the elite.
+ScoredStage TwoBalls() {
+  ScoredStage scored;
+  scored.values = torch::cat({ValuesOf(Ball(0.2)), ValuesOf(Ball(0.3))});
+  scored.objects = {Remesh(Ball(0.2)), Remesh(Ball(0.3))};
+  scored.graspabilities = {0.002, 0.001};
+  return scored;
+}
+
+TEST(EliteSelector, LearnsTheDistancesToElitesAsTheyWereRefined) {
+  RunConfig config;
+  config.cem.samples = 2;
+  config.cem.keep = 1;
+  config.cem.refine_steps = 5;
+  const ScoredStage scored = TwoBalls();
+  std::vector<std::uint64_t> seeds;
+  const auto refine = [&](const TriangleMesh& mesh, const RunConfig& of, const BoundingBox& within,
+                          std::uint64_t seed) {
+    EXPECT_EQ(mesh.vertices, scored.objects[1].mesh.vertices);
+    EXPECT_EQ(of.cem.refine_steps, 5);
+    // A node from each side of the 32.
+    EXPECT_NEAR(within.min.x(), -0.5 + 1.5 / 32, 1e-12);
+    EXPECT_NEAR(within.max.z(), 0.5 - 1.5 / 32, 1e-12);
+    seeds.push_back(seed);
+    return scored.objects[0].mesh;
+  };
+  const EliteSelector selector(config, ValuesOf(Ball(0.3)), refine);
+  const Selection selection = selector.Select(scored, 0);
+  const torch::Tensor first = selector.Elites(scored, selection, 1, nullptr);
+  EXPECT_EQ(first.size(0), 1);
+  EXPECT_LT((first - ValuesOf(Ball(0.2))).abs().max().item<double>(), 0.03);
+  selector.Elites(scored, selection, 2, nullptr);
+  ASSERT_EQ(seeds.size(), 2U);
+  EXPECT_NE(seeds[0], seeds[1]) << "every episode begins elsewhere";
 }
 
 TEST(EliteSelector, TrainsOnTheElitesOfTheSamplesAndThenTheReplayedOfThePriorSet) {
