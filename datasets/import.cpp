@@ -27,8 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Of text alone, as there may be very many: a path keeps its parts beside it.
 struct Source {
-  fs::path path;
+  std::string path;
   ObjectOrigin origin;  // named from the folder it was found in
 };
 
@@ -52,20 +53,21 @@ std::vector<Source> FindSources(const std::vector<fs::path>& inputs) {
     if (fs::is_directory(status)) {
       for (const fs::path& file : MeshFilesIn(input)) {
         sources.push_back(
-            {file, {file.lexically_relative(input).generic_string(), input.string()}});
+            {file.string(), {file.lexically_relative(input).generic_string(), input.string()}});
       }
     } else {
-      sources.push_back(
-          {input, {input.filename().string(), fs::absolute(input).parent_path().string()}});
+      sources.push_back({input.string(),
+                         {input.filename().string(), fs::absolute(input).parent_path().string()}});
     }
   }
-  std::stable_sort(sources.begin(), sources.end(),
-                   [](const Source& a, const Source& b) { return a.path < b.path; });
-  std::set<fs::path> seen;
+  std::stable_sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) {
+    return fs::path(a.path) < fs::path(b.path);  // part by part
+  });
+  std::set<std::string> seen;
   std::erase_if(sources, [&](const Source& source) {
     std::error_code error;
     const fs::path real = fs::canonical(source.path, error);
-    return !seen.insert(error ? source.path : real).second;
+    return !seen.insert(error ? source.path : real.string()).second;
   });
   return sources;
 }
@@ -265,7 +267,7 @@ void WriteGrids(const Spool& grids, const std::vector<Item>& items,
 std::vector<ImportedMesh> ImportMeshes(const std::vector<fs::path>& inputs, const fs::path& out,
                                        const ImportOptions& options, const ProgressFn& progress) {
   AG_CHECK(options.resolution > 2.0 * kFreeCells, "a grid larger than its border");
-  const std::vector<Source> sources = FindSources(inputs);
+  std::vector<Source> sources = FindSources(inputs);
   const std::string where = Joined(inputs);
   if (sources.empty()) {
     throw InputError("no mesh file", where, Alternatives(ReadableExtensions(), "*."));
@@ -283,6 +285,8 @@ std::vector<ImportedMesh> ImportMeshes(const std::vector<fs::path>& inputs, cons
   MeshSpool meshes(out.string() + ".meshes", sources.size());
   std::vector<Item> items = ReadAll(sources, options, &meshes, report_from(0));
   CountUsable(items, where);
+  sources.clear();  // the reports have the paths
+  sources.shrink_to_fit();
 
   const double room = (options.resolution - 2.0 * kFreeCells) / options.resolution;
   const bool one = options.scale == ImportScale::kSet;
