@@ -181,6 +181,19 @@ void ObjectSource::RequireNotRead(const std::vector<fs::path>& written) const {
   }
 }
 
+void ObjectSource::RequireNotSearched(const fs::path& folder) const {
+  const fs::path written = fs::weakly_canonical(folder);
+  for (const Input& input : inputs_) {
+    if (!input.is_folder) continue;
+    const fs::path searched = fs::canonical(input.path);
+    const auto [end, ignored] =
+        std::mismatch(searched.begin(), searched.end(), written.begin(), written.end());
+    if (end != searched.end()) continue;
+    throw InputError("meshes written there would be read by the next call", folder.string(),
+                     "a folder outside of " + input.path);
+  }
+}
+
 std::vector<InputObject> LoadObjects(const ObjectSource& source, int threads,
                                      const ProgressFn& progress, std::size_t limit) {
   const auto all = static_cast<std::size_t>(source.size());

@@ -51,6 +51,9 @@ class ObjectSource {
   InputObject Load(std::int64_t i) const;
   // InputError when one of the files to be written is a file that objects are read from.
   void RequireNotRead(const std::vector<std::filesystem::path>& written) const;
+  // InputError when meshes that are written into this folder would be objects of the next call: it
+  // is, or lies in, a folder that is searched.
+  void RequireNotSearched(const std::filesystem::path& folder) const;
 
  private:
   struct Input;   // an SDF file, a folder or a mesh file

@@ -104,6 +104,17 @@ TEST(ObjectSource, NamesTheFileThatWouldBeWrittenOver) {
   EXPECT_THROW(source.RequireNotRead({folder / "p.h5"}), InputError);
 }
 
+TEST(ObjectSource, NamesTheFolderWhoseMeshesTheNextCallWouldRead) {
+  const TempFolder folder;
+  const ObjectSource source(Inputs(folder));  // a folder "in" among them
+  source.RequireNotSearched(folder.path());
+  source.RequireNotSearched(folder / "in-beside");
+  source.RequireNotSearched(folder / "in/../out");
+  for (const char* inside : {"in", "in/", "in/new/after", "out/../in/x"}) {
+    EXPECT_THROW(source.RequireNotSearched(folder / inside), InputError) << inside;
+  }
+}
+
 TEST(ObjectSource, FilesThatKnowTheirUnitAreTurnedIntoThatOfTheCall) {
   const TempFolder folder;
   WriteMesh(folder / "c.stl", shapes::Box({20, 30, 40}));
