@@ -1,5 +1,6 @@
 #include "antigrasp/judge/given_objects.h"
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -7,6 +8,7 @@
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/format.h"
 #include "antigrasp/core/ordered_stream.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/judge/given_table.h"
@@ -22,12 +24,26 @@ struct ByObject {
   std::int64_t others = 0;  // of objects that are not scored
 };
 
+// "mug.stl, pot.stl and 3 more".
+std::string Named(const std::set<std::string>& names) {
+  std::string text;
+  int left = 2;
+  for (const std::string& name : names) {
+    if (left-- == 0) return text + " and " + std::to_string(std::ssize(names) - 2) + " more";
+    text += (text.empty() ? "" : ", ") + (name.empty() ? std::string("no object") : name);
+  }
+  return text;
+}
+
 ByObject Sort(std::vector<GivenGrasp> all, const ObjectSource& objects, const std::string& table) {
   ByObject by;
   by.grasps.resize(static_cast<std::size_t>(objects.size()));
   std::set<std::string> named;
   for (const GivenGrasp& grasp : all) named.insert(grasp.object);
-  if (objects.size() == 1 && named.size() == 1) {  // whatever they are called
+  // An only object takes rows without a name, and those of its name in whatever folder.
+  const bool same = objects.size() == 1 && named.size() == 1 &&
+                    (named.begin()->empty() || StreamOf(*named.begin()) == objects.stream(0));
+  if (same) {
     by.grasps.front() = std::move(all);
     return by;
   }
@@ -44,10 +60,27 @@ ByObject Sort(std::vector<GivenGrasp> all, const ObjectSource& objects, const st
     }
   }
   if (by.others == std::ssize(all)) {
-    throw InputError("no grasp of " + objects.name(0), table,
-                     "a column object with the names of the objects that are scored");
+    throw InputError("grasps of " + Named(named) + ", no grasp of " + objects.name(0), table,
+                     "the names of the objects that are scored in the column object");
   }
   return by;
+}
+
+// A table says the size that its grasps were planned at: at another one they are not these grasps.
+void RequireSameScale(const std::string& object, const TriangleMesh& mesh,
+                      const std::vector<GivenGrasp>& grasps, const MetricOptions& metric,
+                      const std::string& table) {
+  constexpr double kRounding = 1e-6;
+  const double scale = MetresPerUnit(metric, Bounds(mesh).Extent());
+  for (const GivenGrasp& grasp : grasps) {
+    if (!(std::abs(grasp.metres_per_unit - scale) > kRounding * scale) || !grasp.says_scale) {
+      continue;
+    }
+    throw InputError("grasps of " + object + " at metres_per_unit " +
+                         FormatDouble(grasp.metres_per_unit) + ", which is scored at " +
+                         FormatDouble(scale),
+                     table, "--units, --true-size and --object-min-extent as when it was written");
+  }
 }
 
 struct ScoredGrasps {
@@ -118,6 +151,7 @@ GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
         if (!object.note.empty()) scored.note = object.name + ": " + object.note;
         if (!object.ok()) return scored;
         scored.extent = Bounds(object.mesh).Extent();
+        RequireSameScale(object.name, object.mesh, grasps, metric, request.grasps);
         scored.scores =
             ScoreGivenGrasps(object.mesh, grasps, metric, request.seed, objects.stream(i));
         if (!request.in_physics) return scored;

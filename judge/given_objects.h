@@ -28,8 +28,9 @@ struct GivenReport {
 // A row for every grasp of the objects, in the order of objects and then of the table: `object,
 // grasp, status, epsilon, robust_quality, width, reachable` and, in physics, `trial, pose,
 // executions, held` (docs/formats.md). `trial_metric`: the metric with what the protocol lays down
-// (ApplyProtocol). Rows of a table belong to the object of their name or file name, all to an only
-// one. InputError, with nothing written, when none belongs to any and when no object is usable.
+// (ApplyProtocol). Rows of a table belong to the object of their name or file name, those without a
+// name to an only one. InputError, with nothing written, when none belongs to any, when no object
+// is usable, and for a table that says another metres_per_unit than the object is scored at.
 GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
                        const MetricOptions& trial_metric, const PhysicsTrialOptions& trial,
                        RunObserver* observer);

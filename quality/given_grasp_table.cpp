@@ -19,8 +19,9 @@ using Columns = std::array<std::size_t, 3>;
 class Rows {
  public:
   explicit Rows(const std::filesystem::path& path) : csv_(path), path_(path.string()) {
-    const bool has_contacts = Find("p1").has_value() && Find("p2").has_value();
-    if (has_contacts) contacts_ = {*Find("p1"), *Find("p2")};
+    const auto first = Find("p1"), second = Find("p2");
+    const bool has_contacts = first && second;
+    if (has_contacts) contacts_ = {*first, *second};
     center_ = Find("center_");
     axis_ = Find("axis_");
     approach_ = Find("approach_");
@@ -43,6 +44,8 @@ class Rows {
     grasp.id = Text("grasp").value_or(std::to_string(number));
     grasp.frame = Frame();
     if (csv_.Column("metres_per_unit")) grasp.metres_per_unit = Number("metres_per_unit");
+    grasp.says_scale = csv_.Column("metres_per_unit") && grasp.metres_per_unit > 0.0 &&
+                       std::isfinite(grasp.metres_per_unit);
     const Vector3d p1 = contacts_ ? Vector(contacts_->first) : Vector3d::Zero();
     const Vector3d p2 = contacts_ ? Vector(contacts_->second) : Vector3d::Zero();
     grasp.center = center_ ? Vector(*center_) : Vector3d(0.5 * (p1 + p2));
@@ -59,12 +62,16 @@ class Rows {
 
   std::optional<Columns> Find(const std::string& head) const {
     Columns columns{};
+    std::string there, missing;
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto column = csv_.Column(head + "xyz"[k]);
-      if (!column) return std::nullopt;
-      columns[k] = *column;
+      const std::string name = head + "xyz"[k];
+      const auto column = csv_.Column(name);
+      (column ? there : missing) += " " + name;
+      columns[k] = column.value_or(0);
     }
-    return columns;
+    if (missing.empty()) return columns;
+    if (there.empty()) return std::nullopt;
+    throw InputError("column" + there + " without" + missing, path_, "all three, or none");
   }
   std::optional<std::string> Text(const char* name) const {
     const auto column = csv_.Column(name);

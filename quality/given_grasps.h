@@ -20,6 +20,7 @@ struct GivenGrasp {
   std::string id;      // column `grasp`, else the number of the row among the object's, from 0
   GraspFrame frame = GraspFrame::kMesh;
   double metres_per_unit = 1.0;  // of the metres that kMetres is in
+  bool says_scale = false;       // whether the table has a number there, in whatever frame
   // NaN where the table has no number. The centre is where the jaws meet, the axis goes from jaw 1
   // to jaw 2, the approach from the palm to the fingertips (zero: none was given).
   Eigen::Vector3d center, axis, approach = Eigen::Vector3d::Zero();
@@ -32,8 +33,9 @@ struct GivenGrasp {
 // centre (center_x, ...), or in place of either the contacts (p1x ... p2z), in whose middle the
 // centre then is. If there are such columns: approach_x ..., width, object, grasp, candidate, and
 // frame (mesh or metres, and then metres_per_unit; without it the mesh's unit and frame).
-// InputError with file:line for a table without rows, without a needed column, with text where a
-// number must be, and for one of an earlier version that does not say its frame.
+// InputError with file:line for a table without rows, without a needed column, with one or two of
+// the three columns of a vector, with text where a number must be, and for one of an earlier
+// version that does not say its frame.
 std::vector<GivenGrasp> ReadGivenGrasps(const std::filesystem::path& path);
 
 // How a given grasp scores. Local frame: metres, about the object's round place (local_object.h).

@@ -91,12 +91,40 @@ TEST_F(GivenObjects, EveryRowBelongsToTheObjectOfItsName) {
   EXPECT_EQ(report.summary[2], "1 grasps of other objects are left out");
 }
 
-TEST_F(GivenObjects, AnOnlyObjectTakesTheGraspsOfAnOnlyOther) {
-  EXPECT_TRUE(Score(kHeader + "mug,0,0,0,1,0,0,\n", {"a.stl"}).summary[0].ends_with("1 ok"));
+TEST_F(GivenObjects, AnOnlyObjectTakesRowsOfItsNameAndWithoutAny) {
+  for (const char* name : {"a", "a.obj", "set/a.stl", ""}) {
+    const std::string row = name + std::string(",0,0,0,1,0,0,\n");
+    EXPECT_TRUE(Score(kHeader + row, {"a.stl"}).summary[0].ends_with("1 ok")) << name;
+  }
+  EXPECT_EQ(WhyNot(kHeader + "mug,0,0,0,1,0,0,\n", {"a.stl"}),
+            "grasps of mug, no grasp of a.stl (" + (folder_ / "g.csv").string() +
+                "): expected the names of the objects that are scored in the column object");
+  EXPECT_NE(WhyNot(kHeader + "x,0,0,0,1,0,0,\ny,0,0,0,1,0,0,\nz,0,0,0,1,0,0,\n", {"a.stl"})
+                .find("grasps of x, y and 1 more, no grasp of a.stl"),
+            std::string::npos);
   EXPECT_TRUE(
       Score("p1x,p1y,p1z,p2x,p2y,p2z\n-20,0,0,20,0,0\n", {"a.stl"}).summary[0].ends_with("1 ok"));
   EXPECT_NE(WhyNot(kHeader + "mug,0,0,0,1,0,0,\n", {"a.stl", "b.stl"}).find("no grasp of a.stl"),
             std::string::npos);
+}
+
+// Boxes of millimetres at true size: 0.001 m a unit.
+TEST_F(GivenObjects, ATableOfAnotherScaleIsRefusedInEitherFrame) {
+  const std::string header =
+      "center_x,center_y,center_z,axis_x,axis_y,axis_z,metres_per_unit,frame\n";
+  for (const char* frame : {"metres", "mesh"}) {
+    const auto row = [&](const std::string& scale) {
+      return header + "0,0,0,1,0,0," + scale + "," + frame + "\n";
+    };
+    EXPECT_TRUE(Score(row("0.001"), {"a.stl"}).summary[0].ends_with("1 ok"));
+    EXPECT_EQ(WhyNot(row("0.025"), {"a.stl"}),
+              "grasps of a.stl at metres_per_unit 0.025, which is scored at 0.001 (" +
+                  (folder_ / "g.csv").string() +
+                  "): expected --units, --true-size and --object-min-extent as when it was "
+                  "written");
+  }
+  EXPECT_TRUE(
+      Score(header + "0,0,0,1,0,0,,mesh\n", {"a.stl"}).summary[0].ends_with("1 ok"));  // no number
 }
 
 TEST_F(GivenObjects, GraspsBesideTheirObjectAreCountedAndWarnedOf) {

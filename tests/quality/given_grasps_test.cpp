@@ -218,8 +218,15 @@ TEST(GivenGraspTable, RefusesWhatItCannotReadInOneLine) {
             "no columns center_x center_y center_z (g.csv): expected a centre and an axis, or the "
             "contacts p1x ... p2z");
   EXPECT_EQ(WhyNot("center_x,center_y,center_z,axis_x\n1,0,0,1\n"),
+            "column axis_x without axis_y axis_z (g.csv): expected all three, or none");
+  EXPECT_EQ(WhyNot("center_x,center_y,center_z\n1,0,0\n"),
             "no columns axis_x axis_y axis_z (g.csv): expected a centre and an axis, or the "
             "contacts p1x ... p2z");
+  for (const char* half : {"approach_x", "p2y,p2z"}) {
+    EXPECT_TRUE(WhyNot(header + "," + half + "\n1,2,3,1,0,0,0,0\n").starts_with("column ")) << half;
+  }
+  EXPECT_EQ(WhyNot(header + ",approach_z\n1,2,3,1,0,0,-1\n"),
+            "column approach_z without approach_x approach_y (g.csv): expected all three, or none");
   EXPECT_EQ(WhyNot(header + "\n1,2,3,1,0,0\n1,2,3,1,0,up\n"),
             "axis_z = \"up\" (g.csv:3): expected a number");
   EXPECT_EQ(WhyNot(header + ",frame\n1,2,3,1,0,0,inches\n"),
