@@ -54,15 +54,12 @@ struct PairFlags : PairRequest {
   ProtocolName protocol = ProtocolName::kSixWays;
 };
 
-void Pair(const PairFlags& flags, const CLI::App& command, const OptionFlags& trial_flags,
-          const MetricFlags& metric_flags) {
+void Pair(const PairFlags& flags, const TypedTrial& typed, const MetricFlags& metric_flags) {
   const Protocol protocol = ProtocolOf(flags.protocol);
   const MetricOptions metric = metric_flags.Resolve();
   MetricOptions of_trial = metric;
-  PhysicsTrialOptions trial = TrialOptionsOf(protocol, command, trial_flags, &of_trial);
-  RequireOptionsUsed(protocol, trial.physics.tip.shape,
-                     [&](const std::string& key) { return trial_flags.Typed(key); });
-  if (trial.mass == 0.0 && trial_flags.Typed("trial.mass").empty()) trial.mass = AtEqualMass().mass;
+  const PhysicsTrialOptions trial = TrialOptionsOf(protocol, typed, &of_trial, AtEqualMass());
+  RequireOptionsUsed(protocol, trial.physics.tip.shape, typed);
   ConsoleObserver console;
   const PairReport report = WritePairDataset(flags, metric, of_trial, trial, &console);
   for (const std::string& warning : report.warnings) Warn(warning);
@@ -90,9 +87,9 @@ void AddPairCommand(CLI::App* dataset) {
   pair->add_option("--license", flags->license, "of the data, for datasheet.md");
   pair->add_option("--seed", flags->seed, "random seed")->capture_default_str();
   AddThreads(pair, &flags->threads);
-  const auto trial = std::make_shared<OptionFlags>(AddOptions<PhysicsTrialOptions>(pair, "Trial"));
+  const auto trial = AddTrialFlags(pair);
   const auto metric = std::make_shared<MetricFlags>(pair);
-  pair->callback([flags, pair, trial, metric] { Pair(*flags, *pair, *trial, *metric); });
+  pair->callback([flags, pair, trial, metric] { Pair(*flags, TypedOf(*pair, *trial), *metric); });
 }
 
 void AddResolution(CLI::App* command, int* resolution) {

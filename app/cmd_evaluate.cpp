@@ -35,13 +35,14 @@ std::string MetricPath(const EvaluateFlags& flags) {
   return flags.out.empty() ? "" : flags.out + ".metric.toml";
 }
 
-void WriteScores(const EvaluateFlags& flags, const MetricOptions& metric, const std::string& csv) {
+void WriteScores(const EvaluateFlags& flags, const Scoring& scoring, const std::string& csv) {
   if (flags.out.empty()) {
     std::printf("%s", csv.c_str());
     return;
   }
   WriteFileAtomic(flags.out, csv);
-  WriteFileAtomic(MetricPath(flags), MetricToml(metric, flags.seed));
+  WriteFileAtomic(MetricPath(flags), MetricToml(scoring.metric, flags.seed) +
+                                         (scoring.judge ? scoring.judge->Toml() : ""));
 }
 
 void PrintLines(const std::vector<std::string>& lines) {
@@ -60,7 +61,7 @@ void WarnOfOtherName(const ObjectSource& objects, const ObjectSource& originals)
 void EvaluateHardest(const EvaluateFlags& flags, const ObjectSource& objects,
                      const Scoring& scoring) {
   const HardestOfSet found = FindHardest(objects, flags.inputs.front(), flags.hardest, scoring);
-  WriteScores(flags, scoring.metric, HardestCsv(found));
+  WriteScores(flags, scoring, HardestCsv(found));
   PrintLines(found.summary);
 }
 
@@ -85,28 +86,22 @@ void EvaluateAll(const EvaluateFlags& flags, const ObjectSource& objects, const 
                    });
   if (originals) WarnOfOtherName(objects, *originals);
   if (grasps_file) grasps_file->Commit();
-  WriteScores(flags, scoring.metric, table.Csv());
+  WriteScores(flags, scoring, table.Csv());
   PrintLines(scores.Summary(scoring.effort_given));
   if (originals) PrintLines({scores.PairedDifference()});
-  // What it scored is written; the rest has the status.
-  const std::string stopped = scoring.judge != nullptr ? scoring.judge->Stopped() : "";
-  if (!stopped.empty()) throw RuntimeFailure("the judge stopped: " + stopped);
+  RequireAVerdict(scores, scoring.judge);
 }
 
-void EvaluateGrasps(const EvaluateFlags& flags, const CLI::App& command,
-                    const OptionFlags& trial_flags, const MetricOptions& metric) {
+void EvaluateGrasps(const EvaluateFlags& flags, const TypedTrial& typed,
+                    const MetricOptions& metric) {
   const std::vector<std::filesystem::path> written = {
       flags.out, MetricPath(flags), flags.out.empty() ? "" : flags.out + ".trial.toml"};
   ObjectSource(flags.inputs).RequireNotRead(written);
   RequireNotRead(flags.grasps, written);
   const Protocol protocol = ProtocolOf(flags.protocol);
   MetricOptions of_trial = metric;
-  const PhysicsTrialOptions trial = TrialOptionsOf(protocol, command, trial_flags, &of_trial);
-  if (flags.in_physics) {
-    RequireOptionsUsed(
-        protocol, trial.physics.tip.shape,
-        [&](const std::string& key) { return trial_flags.Typed(key); }, true);
-  }
+  const PhysicsTrialOptions trial = TrialOptionsOf(protocol, typed, &of_trial);
+  if (flags.in_physics) RequireOptionsUsed(protocol, trial.physics.tip.shape, typed, true);
   ConsoleObserver console;
   const GivenReport report = ScoreGiven(flags, metric, of_trial, trial, &console);
   std::fputs(report.table.c_str(), stdout);
@@ -114,10 +109,11 @@ void EvaluateGrasps(const EvaluateFlags& flags, const CLI::App& command,
   PrintLines(report.summary);
 }
 
-void Evaluate(const EvaluateFlags& flags, const CLI::App& command, const OptionFlags& trial_flags,
+void Evaluate(const EvaluateFlags& flags, const TypedTrial& typed,
               const MetricFlags& metric_flags) {
-  if (trial_flags.given() && !flags.in_physics) {
-    throw InputError("options of a trial", "command line", "--trial PROTOCOL beside them");
+  if (!typed.First().empty() && !flags.in_physics && flags.judge.empty()) {
+    throw InputError("an option of a trial", typed.First(),
+                     "--trial PROTOCOL beside them, or --judge trial");
   }
   for (const std::string& out : {flags.out, flags.grasps_out}) {
     if (!out.empty()) const AtomicFile probe(out);  // refuses an unwritable target before the work
@@ -127,7 +123,7 @@ void Evaluate(const EvaluateFlags& flags, const CLI::App& command, const OptionF
                   metric_flags.preset() == "egad", flags.seed, flags.threads};
   scoring.observer = &console;
   scoring.warn = &Warn;
-  if (!flags.grasps.empty()) return EvaluateGrasps(flags, command, trial_flags, scoring.metric);
+  if (!flags.grasps.empty()) return EvaluateGrasps(flags, typed, scoring.metric);
   const std::vector<std::filesystem::path> written = {flags.out, MetricPath(flags),
                                                       flags.grasps_out};
   RequireApart(written);
@@ -139,7 +135,7 @@ void Evaluate(const EvaluateFlags& flags, const CLI::App& command, const OptionF
   std::unique_ptr<Judge> judge;
   if (!flags.judge.empty()) {
     judge = MakeJudge(flags.judge, {scoring.metric, AtEqualMass(), flags.limits, flags.seed,
-                                    flags.threads, &ThrowIfInterrupted});
+                                    flags.threads, &ThrowIfInterrupted, typed});
     scoring.judge = judge.get();
   }
   if (flags.hardest > 0) {
@@ -205,13 +201,12 @@ void AddEvaluateCommand(CLI::App* app) {
   command->get_option("--judge")->excludes(given);
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
   AddThreads(command, &flags->threads, "; scores do not depend on it");
-  const auto trial =
-      std::make_shared<OptionFlags>(AddOptions<PhysicsTrialOptions>(command, "Trial"));
+  const auto trial = AddTrialFlags(command);
   const auto metric = std::make_shared<MetricFlags>(command);
   command->footer(EffortRule());
   command->callback([flags, command, trial, metric] {
     flags->in_physics = command->count("--trial") > 0;
-    Evaluate(*flags, *command, *trial, *metric);
+    Evaluate(*flags, TypedOf(*command, *trial), *metric);
   });
 }
 

@@ -111,8 +111,9 @@ void AddMethod(CLI::App* perturb, const std::string& name, const std::string& he
       used = table;
     }
     Bind(&used, &settings.metric);
-    Perturb(*flags, settings, "seed = " + std::to_string(flags->seed) + "\n\n" + used.Dump(),
-            metric_flags->gripper());
+    std::string constants = "seed = " + std::to_string(flags->seed) + "\n\n" + used.Dump();
+    if (settings.judges) constants += JudgePool::Lease(settings.judges.get())->Toml();
+    Perturb(*flags, settings, constants, metric_flags->gripper());
   });
 }
 

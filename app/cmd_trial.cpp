@@ -1,6 +1,5 @@
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -75,43 +74,29 @@ void TrialByModel(const TrialFlags& flags, const PhysicsTrialOptions& given, Met
   std::fputs(TrialText(names, all, options.min_epsilon).c_str(), stdout);
 }
 
-void RequireNoPhysics(const CLI::App& command, const OptionFlags& trial_flags) {
-  std::vector<std::string> typed;
+void RequireNoPhysics(const CLI::App& command, const TypedTrial& typed) {
   for (const char* flag :
        {"--baseline", "--friction", "--protocol", "--equal-mass", "--replays", "--overwrite"}) {
-    if (command.count(flag) > 0) typed.emplace_back(flag);
+    if (command.count(flag) == 0) continue;
+    throw InputError("the model has no such thing", flag, "--engine mujoco");
   }
-  PhysicsTrialOptions physics;
-  TrialOptions model;
-  OptionTable all, of_model;
-  Bind(&all, &physics);
-  Bind(&of_model, &model);
-  for (const Option& option : all.options()) {
-    const bool known = std::any_of(of_model.options().begin(), of_model.options().end(),
-                                   [&](const Option& other) { return other.key == option.key; });
-    const std::string text = trial_flags.Typed(option.key);
-    if (!known && !text.empty()) typed.push_back(text);
-  }
-  if (!typed.empty()) {
-    throw InputError("the model has no such thing", typed.front(), "--engine mujoco");
-  }
+  RequireModelOptions(typed);
 }
 
-void Trial(TrialFlags flags, const CLI::App& command, const OptionFlags& trial_flags,
+void Trial(TrialFlags flags, const CLI::App& command, const TypedTrial& typed,
            const MetricFlags& metric_flags) {
   const Protocol protocol = ProtocolOf(flags.protocol);
   MetricOptions metric = metric_flags.Resolve();
-  const PhysicsTrialOptions options = TrialOptionsOf(protocol, command, trial_flags, &metric);
+  const PhysicsTrialOptions options = TrialOptionsOf(protocol, typed, &metric);
   if (flags.millimetres) {
     metric.object_min_extent = 0.0;
     metric.units = LengthUnit::kMm;
   }
   if (flags.engine == TrialEngine::kModel) {
-    RequireNoPhysics(command, trial_flags);
+    RequireNoPhysics(command, typed);
     return TrialByModel(flags, options, metric);
   }
-  RequireOptionsUsed(protocol, options.physics.tip.shape,
-                     [&](const std::string& key) { return trial_flags.Typed(key); });
+  RequireOptionsUsed(protocol, options.physics.tip.shape, typed);
   if (command.count("--equal-mass") > 0 && (flags.baseline.empty() || options.mass > 0.0)) {
     throw InputError("nothing is compared", "--equal-mass",
                      "--baseline, and no other mass (--mass, or of the protocol)");
@@ -124,6 +109,7 @@ void Trial(TrialFlags flags, const CLI::App& command, const OptionFlags& trial_f
   const PhysicsTrialReport report = TryInPhysics(flags, metric, options, &console);
   for (const std::string& warning : report.warnings) spdlog::warn("{}", warning);
   std::fputs(report.text.c_str(), stdout);
+  if (report.interrupted) throw Interrupted();
 }
 
 }  // namespace
@@ -163,15 +149,14 @@ void AddTrialCommand(CLI::App* app) {
   command->add_option("--threads", flags->threads, "threads; 0 = all; results do not depend on it")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  const auto trial_flags =
-      std::make_shared<OptionFlags>(AddOptions<PhysicsTrialOptions>(command, "Trial"));
+  const auto trial_flags = AddTrialFlags(command);
   const auto metric_flags = std::make_shared<MetricFlags>(command);
   command->remove_option(command->get_option("--percentile"));  // without meaning here
   command->get_option("--friction")->excludes("--friction-angle", "--reading");
   for (const char* name : {"--units", "--object-min-extent"}) mm->excludes(name);
   command->footer(kTrialHelp);
   command->callback([flags, command, trial_flags, metric_flags] {
-    Trial(*flags, *command, *trial_flags, *metric_flags);
+    Trial(*flags, *command, TypedOf(*command, *trial_flags), *metric_flags);
   });
 }
 

@@ -2,16 +2,14 @@
 
 namespace antigrasp {
 
-PhysicsTrialOptions TrialOptionsOf(const Protocol& protocol, const CLI::App& command,
-                                   const OptionFlags& trial_flags, MetricOptions* metric) {
-  PhysicsTrialOptions options;
-  MetricOptions of_protocol = *metric;
-  ApplyProtocol(protocol, &of_protocol, &options);
-  if (command.count("--friction") == 0) metric->friction = of_protocol.friction;
-  OptionTable table;
-  Bind(&table, &options);
-  trial_flags.Apply(&table);
-  return options;
+std::shared_ptr<OptionFlags> AddTrialFlags(CLI::App* command) {
+  return std::make_shared<OptionFlags>(AddOptions<PhysicsTrialOptions>(command, "Trial"));
+}
+
+TypedTrial TypedOf(const CLI::App& command, const OptionFlags& flags) {
+  return {[&flags](OptionTable* table) { flags.Apply(table); },
+          [&flags](const std::string& key) { return flags.Typed(key); },
+          command.count("--friction") > 0};
 }
 
 }  // namespace antigrasp

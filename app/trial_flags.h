@@ -1,13 +1,14 @@
 #pragma once
 
 #include "antigrasp/app/flags.h"
-#include "antigrasp/trial/physics_trial.h"
+#include "antigrasp/trial/trial_options.h"
 
 namespace antigrasp {
 
-// The trial that a protocol and the command's flags ask for; what was typed goes before what the
-// protocol lays down, the friction of `metric` included.
-PhysicsTrialOptions TrialOptionsOf(const Protocol& protocol, const CLI::App& command,
-                                   const OptionFlags& trial_flags, MetricOptions* metric);
+// An option of a trial each, in a group of their own.
+std::shared_ptr<OptionFlags> AddTrialFlags(CLI::App* command);
+
+// What was typed of a trial. `flags` must live as long as it.
+TypedTrial TypedOf(const CLI::App& command, const OptionFlags& flags);
 
 }  // namespace antigrasp

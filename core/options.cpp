@@ -127,6 +127,13 @@ std::string Quoted(const std::string& text) {
 
 }  // namespace
 
+void OptionTable::AddAll(const OptionTable& other, const std::string& prefix) {
+  for (Option option : other.options_) {
+    option.key = prefix + option.key;
+    options_.push_back(std::move(option));
+  }
+}
+
 void OptionTable::Add(std::string key, bool* target, std::string help) {
   options_.push_back({.key = std::move(key), .target = target, .help = std::move(help)});
 }

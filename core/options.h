@@ -41,6 +41,9 @@ class OptionTable {
   template <Chosen E>
   void Add(std::string key, E* target, std::string help);
 
+  // The options of another table, their keys behind a prefix: "judge." and "trial.mass".
+  void AddAll(const OptionTable& other, const std::string& prefix);
+
   const std::vector<Option>& options() const { return options_; }
 
   // Each throws InputError naming file:line (or `origin`), key, value and the accepted range. An

@@ -19,6 +19,12 @@ class ObjectJudge : public Judge {
   ObjectJudge(std::string name, JudgeOptions options)
       : options_(std::move(options)), name_(std::move(name)) {}
   std::string Name() const override { return name_; }
+  void TellSettings(const std::function<void(const OptionTable&)>& add) const override {
+    MetricOptions metric = options_.metric;
+    OptionTable table;
+    Bind(&table, &metric);
+    add(table);
+  }
   std::vector<Verdict> Score(const std::vector<JudgedObject>& objects) override {
     std::vector<Verdict> verdicts(objects.size());
     ParallelFor(
@@ -65,8 +71,18 @@ class TrialOfJudge final : public ObjectJudge {
     PhysicsTrials trials(options_.metric, options_.trial, options_.seed, 1);
     const TrialSummary summary =
         SummaryOf(object.name, trials.Try(*object.mesh, object.stream), trials.protocol());
-    if (summary.poses == 0 && trials.protocol().table) return Verdict::None(summary.status);
-    return Verdict::Of(summary.held.front().value);
+    return summary.HasShare() ? Verdict::Of(summary.held.front().value)
+                              : Verdict::None(summary.status);
+  }
+  void TellSettings(const std::function<void(const OptionTable&)>& add) const override {
+    MetricOptions metric = options_.metric;
+    PhysicsTrialOptions trial = options_.trial;
+    std::string engine = "mujoco " + MujocoVersion();
+    OptionTable table;
+    table.Add("engine", &engine, {}, "of the physics");
+    Bind(&table, &metric);
+    Bind(&table, &trial);
+    add(table);
   }
 };
 
@@ -88,18 +104,25 @@ PhysicsTrialOptions AtEqualMass() {
 }
 
 std::unique_ptr<Judge> MakeJudge(const std::string& name, const JudgeOptions& options) {
+  const bool by_trial = name == kTrial || name.starts_with(std::string(kTrial) + ":");
+  if (!by_trial && !options.typed.First().empty()) {
+    throw InputError("judge " + name + " has no such thing", options.typed.First(),
+                     "--judge trial or trial:PROTOCOL");
+  }
   if (name == kEpsilon) return std::make_unique<MetricJudge>(name, options);
   if (name == kSettled) {
     JudgeOptions settled = options;
     JudgeSettled(&settled.metric);
     return std::make_unique<MetricJudge>(name, settled);
   }
-  if (name != kTrial && !name.starts_with(std::string(kTrial) + ":")) {
+  if (!by_trial) {
     return std::make_unique<ProgramJudge>(name, options.metric, options.program, options.tick);
   }
   const ProtocolName protocol = ProtocolNamed(name);
   JudgeOptions of_trial = options;
-  ApplyProtocol(ProtocolOf(protocol), &of_trial.metric, &of_trial.trial);
+  of_trial.trial =
+      TrialOptionsOf(ProtocolOf(protocol), options.typed, &of_trial.metric, options.trial);
+  RequireOptionsUsed(ProtocolOf(protocol), of_trial.trial.physics.tip.shape, options.typed);
   PhysicsTrials(of_trial.metric, of_trial.trial, options.seed, 1);  // refuses what cannot be
   return std::make_unique<TrialOfJudge>("trial:" + ChoiceName(protocol), of_trial);
 }

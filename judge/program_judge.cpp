@@ -235,6 +235,14 @@ std::vector<Verdict> ProgramJudge::Score(const std::vector<JudgedObject>& object
   return Batch(this, objects).Run();
 }
 
+void ProgramJudge::TellSettings(const std::function<void(const OptionTable&)>& add) const {
+  ProgramLimits limits = limits_;
+  OptionTable table;
+  table.Add("limit", &limits.seconds, 0.0, 1e6, "s without an answer, then an object is late");
+  table.Add("restarts", &limits.restarts, 0, 1e6, "how often it is started again");
+  add(table);
+}
+
 std::vector<std::string> ProgramJudge::Notes() const {
   std::vector<std::string> notes;
   if (talk_->restarts > 0) {

@@ -47,6 +47,9 @@ class ProgramJudge : public Judge {
   std::string Stopped() const override { return stopped_; }
   std::vector<std::string> Notes() const override;
 
+ protected:
+  void TellSettings(const std::function<void(const OptionTable&)>& add) const override;
+
  private:
   struct Folder;
   struct Talk;

@@ -14,8 +14,8 @@ namespace {
 // Scored by the metric, waiting for the judge: a batch's meshes are all that is kept of a set.
 class JudgedRows {
  public:
-  JudgedRows(const ObjectSource& objects, Judge* judge, const TakeScored& take)
-      : objects_(objects), judge_(judge), take_(take) {}
+  JudgedRows(const ObjectSource& objects, Judge* judge, const TakeScored& take, ScoredSet* set)
+      : objects_(objects), judge_(judge), take_(take), set_(*set) {}
 
   void Add(std::int64_t place, ScoredObject scored, ScoreRow row, TriangleMesh mesh) {
     if (judge_ == nullptr) return take_(scored, row);
@@ -35,7 +35,7 @@ class JudgedRows {
     auto next = verdicts.begin();
     for (Waiting& one : waiting_) {
       const Verdict verdict = Usable(one) ? *next++ : Verdict::None(one.scored.status);
-      if (Usable(one)) count_.Add(verdict);
+      if (Usable(one)) set_.AddVerdict(verdict);
       scores_.push_back(verdict.score.value_or(std::nan("")));
       one.row.extras.emplace_back("judge", scores_.back());
       one.row.texts.emplace_back("judge_status", verdict.status);
@@ -47,7 +47,7 @@ class JudgedRows {
   // "judge NAME: 12 scored, 1 late, mean 0.71 +-0.05 (95 %)".
   std::string Text() const {
     const MeanInterval mean = MeanWithInterval(scores_);
-    return "judge " + judge_->Name() + ": " + count_.Text() +
+    return "judge " + judge_->Name() + ": " + set_.verdicts().Text() +
            (mean.count > 0 ? ", mean " + MeanText(mean, 5) : "");
   }
 
@@ -63,9 +63,9 @@ class JudgedRows {
   const ObjectSource& objects_;
   Judge* judge_;
   const TakeScored& take_;
+  ScoredSet& set_;
   std::vector<Waiting> waiting_;
   std::vector<double> scores_;
-  VerdictCount count_;
 };
 
 }  // namespace
@@ -86,7 +86,7 @@ ScoredSet ScoreObjects(const ObjectSource& objects, const std::string& where,
     TriangleMesh mesh;  // for the judge, of a usable object
   };
   ScoredSet set(scoring.metric, scoring.egad);
-  JudgedRows rows(objects, scoring.judge, take);
+  JudgedRows rows(objects, scoring.judge, take, &set);
   StreamInOrder(
       objects.size(), scoring.threads,
       [&](std::int64_t i) {
@@ -116,6 +116,14 @@ ScoredSet ScoreObjects(const ObjectSource& objects, const std::string& where,
   }
   set.RequireAScore(where);
   return set;
+}
+
+void RequireAVerdict(const ScoredSet& set, const Judge* judge) {
+  if (judge == nullptr) return;
+  if (!judge->Stopped().empty()) throw RuntimeFailure("the judge stopped: " + judge->Stopped());
+  if (set.verdicts().scored() > 0) return;
+  throw InputError("the judge scored no object: " + set.verdicts().Text(),
+                   "--judge " + judge->Name(), "a finite score of at least one");
 }
 
 HardestOfSet FindHardest(const ObjectSource& objects, const std::string& where, int count,

@@ -37,6 +37,10 @@ ScoredSet ScoreObjects(const ObjectSource& objects, const std::string& where,
                        const ObjectSource* originals, const std::vector<std::int64_t>& original_of,
                        const Scoring& scoring, const TakeScored& take);
 
+// Call when the scores are written, which the metric's are worth: RuntimeFailure for a judge that
+// was given up, InputError for one that scored nothing.
+void RequireAVerdict(const ScoredSet& set, const Judge* judge);
+
 // The N hardest of the objects, scored again, and what is to be said of it. The second time they
 // are few, and get as many grasps as few objects do. InputError when none has a grasp.
 struct HardestOfSet : HardestObjects {

@@ -40,8 +40,10 @@ class JudgedRun {
   Candidate Descend(std::uint64_t which) const { return {descent_.Descend(which)}; }
 
   // Scores all under the same new draws, `rounds` times; infinite where the judge has no score.
-  void JudgeAll(std::vector<Candidate>* candidates, std::uint64_t batch,
-                std::uint64_t rounds) const {
+  // Why it has none of the first one; "" when it has.
+  std::string JudgeAll(std::vector<Candidate>* candidates, std::uint64_t batch,
+                       std::uint64_t rounds) const {
+    std::string why;
     for (Candidate& one : *candidates) one.score = 0.0;
     for (std::uint64_t round = 0; round < rounds; ++round) {
       std::vector<JudgedObject> objects;
@@ -53,7 +55,9 @@ class JudgedRun {
       for (std::size_t i = 0; i < verdicts.size(); ++i) {
         (*candidates)[i].score += verdicts[i].score.value_or(kInfinity);
       }
+      if (!verdicts.front().score) why = verdicts.front().status;
     }
+    return why;
   }
 
   // Evolution from `best`; its last means. `tick` is called after each generation.
@@ -150,13 +154,18 @@ PerturbResult PerturbByJudge(const TriangleMesh& mesh, const MetricOptions& metr
   candidates.resize(std::min(candidates.size(), kFinalists));
   for (Candidate& one : last) candidates.push_back(std::move(one));
   candidates.insert(candidates.begin(), Candidate{{{}, result.start}});  // which wins a tie
-  run.JudgeAll(&candidates, static_cast<std::uint64_t>(options.generations) + 1, kLastRounds);
+  const std::string why =
+      run.JudgeAll(&candidates, static_cast<std::uint64_t>(options.generations) + 1, kLastRounds);
   if (!judge->Stopped().empty()) {
     result.failure = "judge stopped: " + judge->Stopped();
     return result;
   }
   SortByScore(&candidates);
-  if (std::isfinite(candidates.front().score)) result.mesh = candidates.front().change.mesh;
+  if (!std::isfinite(candidates.front().score)) {
+    result.failure = "no score by the judge: " + why;
+    return result;
+  }
+  result.mesh = candidates.front().change.mesh;
   if (result.mesh.vertices != result.start.vertices) result.moved = result.iterations;
   advance(2);
   return result;

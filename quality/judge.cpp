@@ -4,6 +4,19 @@
 
 namespace antigrasp {
 
+std::string Judge::Toml() const {
+  std::string name = Name(), text;
+  const auto dump = [&](const OptionTable& settings) {
+    OptionTable table;
+    table.Add("judge.name", &name, {}, "who scored");
+    table.AddAll(settings, "judge.");
+    text = "\n" + table.Dump();
+  };
+  dump({});
+  TellSettings(dump);
+  return text;
+}
+
 Verdict Verdict::Of(double score) {
   return std::isfinite(score) ? Verdict{score, kOk} : None("not a finite number");
 }

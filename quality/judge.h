@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "antigrasp/core/options.h"
 #include "antigrasp/core/word_count.h"
 #include "antigrasp/mesh/triangle_mesh.h"
 
@@ -37,6 +39,8 @@ class Judge {
   virtual ~Judge() = default;
   // What it is asked by: "epsilon", "trial:six-ways", the command.
   virtual std::string Name() const = 0;
+  // Its name and what it was set to, as TOML under [judge]: belongs beside its scores.
+  std::string Toml() const;
   // One verdict an object, in their order, the same for any number of threads. Objects of a batch
   // may be judged side by side; a caller who has many asks in batches of BatchSize().
   virtual std::vector<Verdict> Score(const std::vector<JudgedObject>& objects) = 0;
@@ -45,6 +49,10 @@ class Judge {
   virtual std::string Stopped() const { return ""; }
   // What happened on the way, for people: "started again 2 times".
   virtual std::vector<std::string> Notes() const { return {}; }
+
+ protected:
+  // Calls `add` with a table of its settings, which need not live longer.
+  virtual void TellSettings(const std::function<void(const OptionTable&)>& /*add*/) const {}
 };
 
 // "12 scored, 2 late, 1 no score", of verdicts that come one by one.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "antigrasp/quality/grasp_table.h"
+#include "antigrasp/quality/judge.h"
 #include "antigrasp/quality/known_scores.h"
 #include "antigrasp/quality/object_size.h"
 #include "antigrasp/quality/score_text.h"
@@ -25,6 +26,10 @@ class ScoredSet {
   ScoreRow Add(const ScoredObject& scored, const ScoredObject* original = nullptr);
   // A sentence of which somebody is to be warned, in the order added.
   void AddNote(std::string note) { notes_.push_back(std::move(note)); }
+
+  // What a judge said of an object, too.
+  void AddVerdict(const Verdict& verdict) { verdicts_.Add(verdict); }
+  const VerdictCount& verdicts() const { return verdicts_; }
 
   // A line for the end of the summary.
   void AddLine(std::string line) { lines_.push_back(std::move(line)); }
@@ -47,6 +52,7 @@ class ScoredSet {
   std::vector<double> with_grasps_;         // those of values_ that are not 0 for want of a grasp
   std::vector<std::string> no_grasps_;
   std::vector<std::string> notes_, lines_;
+  VerdictCount verdicts_;
   CandidateCount candidates_;
   UnlikelySizes sizes_;
   // Of an only object, and of an only pair: what its grasps say about how sure its numbers are.

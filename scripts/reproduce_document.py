@@ -21,6 +21,12 @@ def call(*arguments, allowed=(0,)):
     return done.stdout
 
 
+def made(target):
+    """Whether a call has made this. What an interrupted trial left the same call goes on with."""
+    constants = target.parent / "trial.toml"
+    return target.exists() and not (target.name == "trials.csv" and constants.exists() and "\n[unfinished]\n" in constants.read_text())
+
+
 def means(path, *flags):
     """The rows of `antigrasp info PATH --csv`: means with their half widths, computed by the binary."""
     return list(csv.DictReader(io.StringIO(call("info", path, "--csv", *flags))))

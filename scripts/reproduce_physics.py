@@ -9,7 +9,7 @@ import shutil
 import sys
 import time
 
-from reproduce_document import SETS, call, commit, means, write_section
+from reproduce_document import SETS, call, commit, made, means, write_section
 
 DOCUMENT = pathlib.Path("docs/trials.md")
 METHODS = (
@@ -40,7 +40,7 @@ class Job:
         self.target, self.seconds, self.arguments = target, seconds, arguments
 
     def done(self):
-        return self.target.exists()
+        return made(self.target)
 
     def run(self):
         self.target.parent.mkdir(parents=True, exist_ok=True)

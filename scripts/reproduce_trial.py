@@ -3,7 +3,7 @@ import argparse
 import csv
 import pathlib
 
-from reproduce_document import call, commit, write_section
+from reproduce_document import call, commit, made, write_section
 
 DOCUMENT = pathlib.Path("docs/trials.md")
 # Predicted and actual of Table I, percent.
@@ -20,7 +20,7 @@ FRICTIONS = (0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6)
 
 
 def once(target, *arguments):
-    if not target.exists():
+    if not made(target):
         target.parent.mkdir(parents=True, exist_ok=True)
         call(*arguments)
         print("antigrasp", *arguments[:3], "...", flush=True)

@@ -5,33 +5,24 @@
 #include <cstdio>
 #include <optional>
 
-#include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
 #include "antigrasp/core/ordered_stream.h"
+#include "antigrasp/core/rng.h"
 #include "antigrasp/datasets/objects.h"
-#include "antigrasp/datasets/result_folder.h"
 #include "antigrasp/quality/object_size.h"
-#include "antigrasp/trial/replay_file.h"
-#include "antigrasp/trial/trials_csv.h"
+#include "antigrasp/trial/trial_results.h"
 
 namespace antigrasp {
 namespace {
 
-const ResultFiles kTrialFiles = {
-    "trials.csv", {"executions.csv", "means.csv", "replays.json", "trial.toml"}, {}};
-
-// What all trials of a call write to.
-struct Results {
-  explicit Results(const Protocol& protocol) : trials(protocol) {}
-  TrialsTable trials;
-  ExecutionsTable executions;
-  MeansTable means;
-  ReplayFile replays;
-  std::optional<AtomicFile> executions_file, replays_file;  // which grow with every object
-  bool any = false;
-  std::string first;  // object that could not be tried, and why
-};
+std::uint64_t MeshHash(const TriangleMesh& mesh) {
+  const auto bytes = [](const auto& items) {
+    return std::string_view(reinterpret_cast<const char*>(items.data()),
+                            items.size() * sizeof(items.front()));
+  };
+  return HashOf(bytes(mesh.vertices)) ^ (HashOf(bytes(mesh.faces)) >> 1);
+}
 
 // The objects of a call, or their originals in the same order and with the same draws.
 struct Side {
@@ -43,7 +34,7 @@ struct Side {
 class Call {
  public:
   Call(const PhysicsTrialRequest& request, const ObjectSource& objects, const MetricOptions& metric,
-       const PhysicsTrialOptions& options, RunObserver* observer, Results* results,
+       const PhysicsTrialOptions& options, RunObserver* observer, TrialResults* results,
        PhysicsTrialReport* report)
       : request_(request),
         objects_(objects),
@@ -63,9 +54,13 @@ class Call {
       // Lighter is no harder: a comparison is one at equal mass, too.
       const bool own = options_.mass == 0.0, both = sides.size() > 1 && own;
       AtMass(sides, own ? "own" : "equal", options_.mass);
-      if (both) AtMass(sides, "equal", request_.equal_mass);
+      if (both && !report_.interrupted) AtMass(sides, "equal", request_.equal_mass);
+      if (report_.interrupted) break;
     }
     for (const std::string& text : sizes_.Texts()) report_.warnings.push_back(text);
+    if (any_share_ || !results_.finished()) return;
+    throw InputError("no object could be tried; " + first_, request_.inputs.front(),
+                     "a closed solid that the gripper reaches");
   }
 
  private:
@@ -76,6 +71,8 @@ class Call {
     std::vector<std::string> replays;
     std::string note;
     Eigen::Vector3d extent = Eigen::Vector3d::Zero();  // zero: not loaded
+    std::uint64_t mesh = 0;                            // hash
+    bool done = false;                                 // before this call
   };
 
   void AtMass(const std::vector<Side>& sides, const char* masses, double mass) {
@@ -90,23 +87,34 @@ class Call {
       const Side& side = sides[static_cast<std::size_t>(i % side_count)];
       return TrialRun{ChoiceName(options_.protocol), side.name, masses, metric_.friction};
     };
-    StreamInOrder(
-        count, many ? threads : 1,
-        [&](std::int64_t i) {
-          PhysicsTrials trials(metric_, options, request_.seed, many ? 1 : threads);
-          return TryOne(sides[static_cast<std::size_t>(i % side_count)], i / side_count, run_of(i),
-                        &trials);
-        },
-        [&](std::int64_t i, const Tried& tried) {
-          found[static_cast<std::size_t>(i % side_count)].push_back(tried.summary);
-          Record(run_of(i), tried);
-        },
-        observer_.Phase("trials, " + std::string(masses) + " mass"));
-    results_.means.Add({ChoiceName(options_.protocol), "after", masses, metric_.friction},
-                       protocol_, found[0],
-                       sides.size() > 1 ? found[1] : std::vector<TrialSummary>{});
-    if (sides.size() == 1) {
-      report_.text += TrialLines(found[0], protocol_) + TrialMeans(found[0], protocol_);
+    const std::size_t first = results_.added();
+    try {
+      StreamInOrder(
+          count, many ? threads : 1,
+          [&](std::int64_t i) {
+            return TryOne(sides[static_cast<std::size_t>(i % side_count)], i / side_count,
+                          run_of(i), first + static_cast<std::size_t>(i), options,
+                          many ? 1 : threads);
+          },
+          [&](std::int64_t i, const Tried& tried) {
+            found[static_cast<std::size_t>(i % side_count)].push_back(tried.summary);
+            Record(run_of(i), tried);
+          },
+          observer_.Phase("trials, " + std::string(masses) + " mass"));
+    } catch (const Interrupted&) {
+      report_.interrupted = true;
+    }
+    if (sides.size() > 1) found[0].resize(found[1].size());  // what has its pair
+    if (!found[0].empty()) Tell(found, masses, mass);
+  }
+
+  // What the objects of one kind of mass come to.
+  void Tell(const std::vector<std::vector<TrialSummary>>& found, const char* masses, double mass) {
+    const bool paired = found.size() > 1;
+    results_.means()->Add({ChoiceName(options_.protocol), "after", masses, metric_.friction},
+                          protocol_, found[0], paired ? found[1] : std::vector<TrialSummary>{});
+    if (!paired) {
+      report_.text += TrialLines(found[0], protocol_, metric_) + TrialMeans(found[0], protocol_);
       return;
     }
     report_.text += std::string(masses) + " mass";
@@ -116,42 +124,46 @@ class Call {
                     TrialDifference(found[0], found[1], protocol_) + "\n";
   }
 
-  Tried TryOne(const Side& side, std::int64_t i, const TrialRun& run, PhysicsTrials* trials) const {
+  // `number`: which trial of the call it is.
+  Tried TryOne(const Side& side, std::int64_t i, const TrialRun& run, std::size_t number,
+               const PhysicsTrialOptions& options, int threads) const {
     const std::string& name = objects_.name(i);
     const InputObject object = side.source.Load(side.places[static_cast<std::size_t>(i)]);
     Tried tried;
     if (!object.note.empty()) tried.note = object.name + ": " + object.note;
+    tried.mesh = MeshHash(object.mesh);
+    tried.done = number < results_.done().size();
+    if (object.ok()) tried.extent = Bounds(object.mesh).Extent();
+    if (tried.done) {
+      const TrialRow& row = results_.done()[number];
+      if (row.summary.object != name || row.run != run) tried.mesh = 0;  // another object's
+      tried.summary = row.summary;
+      return tried;
+    }
     tried.summary = NotTried(name, object.status, protocol_);
     if (!object.ok()) return tried;
-    tried.extent = Bounds(object.mesh).Extent();
-    tried.trial = trials->Try(object.mesh, objects_.stream(i));
+    PhysicsTrials trials(metric_, options, request_.seed, threads);
+    tried.trial = trials.Try(object.mesh, objects_.stream(i));
     tried.summary = SummaryOf(name, tried.trial, protocol_);
     // Of a comparison the replays at own mass are enough.
-    if (!results_.replays_file || (run.masses == "equal" && options_.mass == 0.0)) return tried;
+    if (!results_.keeps_replays() || (run.masses == "equal" && options_.mass == 0.0)) return tried;
     for (const auto& [grasp, draw] : WorthAReplay(tried.trial, request_.replays)) {
       tried.replays.push_back(
-          ReplayText(name, run.side, trials, options_.physics.tip, tried.trial, grasp, draw));
+          ReplayText(name, run.side, &trials, options_.physics.tip, tried.trial, grasp, draw));
     }
     return tried;
   }
 
   void Record(const TrialRun& run, const Tried& tried) {
     const std::string& name = tried.summary.object;
-    results_.trials.Add(run, tried.summary);
+    results_.Add(run, tried.summary, tried.done ? nullptr : &tried.trial, tried.replays,
+                 tried.mesh);
     if (!tried.note.empty()) report_.warnings.push_back(tried.note);
     if (!tried.extent.isZero()) sizes_.Add(name, tried.extent);
-    if (tried.summary.status != "ok") {
-      const std::string why = name + ": " + tried.summary.status;
-      if (results_.first.empty()) results_.first = why;
-      report_.warnings.push_back(why);
-      return;
-    }
-    results_.any = true;
-    if (!results_.executions_file) return;
-    results_.executions.Add(run, name, tried.trial);
-    results_.executions_file->Append(results_.executions.TakeText());
-    for (const std::string& replay : tried.replays) results_.replays.Add(replay);
-    results_.replays_file->Append(results_.replays.TakeText());
+    any_share_ = any_share_ || tried.summary.HasShare();
+    if (tried.summary.status == "ok") return;
+    report_.warnings.push_back(name + ": " + tried.summary.status);
+    if (first_.empty()) first_ = report_.warnings.back();
   }
 
   const PhysicsTrialRequest& request_;
@@ -160,9 +172,11 @@ class Call {
   PhysicsTrialOptions options_;
   Protocol protocol_;
   RunObserver& observer_;
-  Results& results_;
+  TrialResults& results_;
   PhysicsTrialReport& report_;
   UnlikelySizes sizes_;
+  bool any_share_ = false;
+  std::string first_;  // object that is not ok, and why
 };
 
 std::string Constants(const PhysicsTrialRequest& request, MetricOptions metric,
@@ -207,29 +221,27 @@ PhysicsTrialReport TryInPhysics(const PhysicsTrialRequest& request, const Metric
     originals.emplace(request.baseline, GridUnit::kOfFiles, UnitToReadIn(metric));
     sides.push_back({"before", *originals, PairWithOriginals(objects, *originals)});
   }
-  std::optional<ResultFolder> folder;
-  Results results(ProtocolOf(options.protocol));
-  if (!request.out.empty()) {
-    folder.emplace(request.out, kTrialFiles, objects, request.overwrite);
-    results.executions_file.emplace(folder->path() / "executions.csv");
-    results.replays_file.emplace(folder->path() / "replays.json");
-  }
+  const std::size_t masses = sides.size() > 1 && options.mass == 0.0 ? 2 : 1;
+  const std::size_t of =
+      request.frictions.size() * masses * sides.size() * static_cast<std::size_t>(objects.size());
+  TrialResults results(request, ProtocolOf(options.protocol), objects,
+                       Constants(request, metric, options), of);
   Call(request, objects, metric, options, observer, &results, &report).Run(sides);
-  if (!results.any) {
-    throw InputError("no object could be tried; " + results.first, request.inputs.front(),
-                     "a closed solid that the gripper reaches");
+  if (!results.finished() && results.added() <= results.done().size()) throw Interrupted();
+  results.Commit();
+  const bool kept = !request.out.empty();
+  if (kept) {
+    report.text +=
+        request.out +
+        ": trials.csv, means.csv, executions.csv, replays.json (`antigrasp report ... --trials " +
+        request.out + "`)\n";
   }
-  if (!folder) return report;
-  results.executions_file->Commit();
-  results.replays_file->Append(results.replays.EndText());
-  results.replays_file->Commit();
-  WriteFileAtomic(folder->path() / "means.csv", results.means.text());
-  WriteFileAtomic(folder->path() / "trial.toml", Constants(request, metric, options));
-  folder->Commit(results.trials.text());
-  report.text +=
-      request.out +
-      ": trials.csv, means.csv, executions.csv, replays.json (`antigrasp report ... --trials " +
-      request.out + "`)\n";
+  if (!results.finished()) {
+    report.text += "stopped after " + std::to_string(results.added()) + " of " +
+                   std::to_string(of) + " trials of an object" +
+                   (kept ? "; the same call, without --overwrite, goes on\n"
+                         : ", which are not kept: there is no --out\n");
+  }
   return report;
 }
 

@@ -25,13 +25,15 @@ struct PhysicsTrialRequest {
 struct PhysicsTrialReport {
   std::string text;                   // tables, means, differences
   std::vector<std::string> warnings;  // repaired, not tried, of an unlikely size
+  bool interrupted = false;           // by the observer; the text says how far it came
 };
 
 // Tries object after object, each beside its original where there are originals, at the own mass of
 // both and at an equal one. Fills the folder with trials.csv, means.csv, executions.csv,
 // replays.json and trial.toml. Memory does not grow with the number of objects but for a row each.
-// Sets malloc's threshold of the process for that (glibc).
-// InputError, with nothing written, when no object could be tried.
+// Sets malloc's threshold of the process for that (glibc). When the observer throws Interrupted,
+// what was tried is kept, and a call of the same request goes on with it: to the bytes of one that
+// was not interrupted. InputError, with nothing written, when no share was held of anything.
 PhysicsTrialReport TryInPhysics(const PhysicsTrialRequest& request, const MetricOptions& metric,
                                 const PhysicsTrialOptions& options, RunObserver* observer);
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,18 +29,6 @@ void Bind(OptionTable* table, PhysicsTrialOptions* options);  // keys "trial.*",
 // What the protocol lays down goes before what the metric's and the fingertip's defaults are:
 // friction and the patch of a fingertip, where the source says one. Call before flags are applied.
 void ApplyProtocol(const Protocol& protocol, MetricOptions* metric, PhysicsTrialOptions* options);
-
-// InputError for an option that this protocol or fingertip makes no use of. `typed`: what was given
-// for a key ("trial.draws"), as it was typed; empty when it was not. `given`: the grasps are.
-void RequireOptionsUsed(const Protocol& protocol, TipShape tip,
-                        const std::function<std::string(const std::string& key)>& typed,
-                        bool given = false);
-
-// What a trial is, its protocols and its judges by name: for a command's help.
-extern const char* const kTrialHelp;
-
-// The friction coefficient of a friction angle, in one reading or in both.
-std::vector<double> FrictionsOf(std::optional<FrictionReading> chosen, double angle_degrees);
 
 struct ExecutedDraw {
   double friction = 0.0;

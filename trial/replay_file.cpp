@@ -116,6 +116,11 @@ std::string ReplayFile::TakeText() { return std::exchange(text_, {}); }
 
 std::string ReplayFile::EndText() { return TakeText() + "\n]}\n"; }
 
+void ReplayFile::GoOnBehind(std::uintmax_t bytes) {
+  any_ = bytes > text_.size();  // than what every file begins with
+  text_.clear();
+}
+
 std::vector<std::pair<std::size_t, std::size_t>> WorthAReplay(const PhysicsTrial& trial, int each) {
   std::vector<std::pair<std::size_t, std::size_t>> chosen;
   int held = 0, lost = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,8 @@ class ReplayFile {
   // A replay takes about 20 kB, so that those of a large set do not fit into memory.
   std::string TakeText();
   std::string EndText();
+  // Goes on behind so many bytes of a file that has lost its EndText().
+  void GoOnBehind(std::uintmax_t bytes);
 
  private:
   std::string text_ = "{\"format\":\"antigrasp.replays\",\"version\":1,\"replays\":[\n";

@@ -1,15 +1,63 @@
+#include "antigrasp/trial/trial_options.h"
+
+#include <algorithm>
+
 #include "antigrasp/core/error.h"
-#include "antigrasp/trial/physics_trial.h"
 
 namespace antigrasp {
+namespace {
 
-void RequireOptionsUsed(const Protocol& protocol, TipShape tip,
-                        const std::function<std::string(const std::string& key)>& typed,
+// Keys of physics; `model`: of the metric's model instead.
+std::vector<std::string> TrialKeys(bool model) {
+  PhysicsTrialOptions physics;
+  TrialOptions series;
+  OptionTable table;
+  if (model) {
+    Bind(&table, &series);
+  } else {
+    Bind(&table, &physics);
+  }
+  std::vector<std::string> keys;
+  for (const Option& option : table.options()) keys.push_back(option.key);
+  return keys;
+}
+
+}  // namespace
+
+std::string TypedTrial::First() const {
+  for (const std::string& key : TrialKeys(false)) {
+    if (!Text(key).empty()) return Text(key);
+  }
+  return "";
+}
+
+PhysicsTrialOptions TrialOptionsOf(const Protocol& protocol, const TypedTrial& typed,
+                                   MetricOptions* metric, PhysicsTrialOptions options) {
+  MetricOptions of_protocol = *metric;
+  ApplyProtocol(protocol, &of_protocol, &options);
+  if (!typed.friction) metric->friction = of_protocol.friction;
+  OptionTable table;
+  Bind(&table, &options);
+  if (typed.apply) typed.apply(&table);
+  return options;
+}
+
+void RequireModelOptions(const TypedTrial& typed) {
+  const std::vector<std::string> known = TrialKeys(true);
+  for (const std::string& key : TrialKeys(false)) {
+    if (typed.Text(key).empty() || std::find(known.begin(), known.end(), key) != known.end()) {
+      continue;
+    }
+    throw InputError("the model has no such thing", typed.Text(key), "--engine mujoco");
+  }
+}
+
+void RequireOptionsUsed(const Protocol& protocol, TipShape tip, const TypedTrial& typed,
                         bool given) {
   const auto refuse = [&](const std::string& who, const std::vector<std::string>& keys,
                           const std::string& expected) {
     for (const std::string& key : keys) {
-      const std::string text = typed("trial." + key);
+      const std::string text = typed.Text("trial." + key);
       if (!text.empty()) throw InputError(who + " has no such thing", text, expected);
     }
   };
@@ -51,8 +99,10 @@ const char* const kTrialHelp =
     "  dexgraspbench no table; six runs, within 50 mm and 15 degrees; 0.1 kg, friction 0.6\n"
     "Held, in percent of the executions; best: of the grasp of highest robust quality; top: of "
     "the\n"
-    "best quarter; force closure: what the metric says of the same executions. With --baseline\n"
-    "both are tried at their own mass and at --equal-mass, with equal draws.\n\n"
+    "best quarter; last: what the metric says of the same executions, force closure, or with\n"
+    "--closing settled that the settled grasp holds. An object that no grasp reaches has no share\n"
+    "(paper: 0) and is in no mean. Ctrl-C keeps in --out what was tried; the same call goes on.\n"
+    "With --baseline both are tried at their own mass and at --equal-mass, with equal draws.\n\n"
     "--engine model asks the metric's model instead (the paper's Table I): a series plans anew,\n"
     "then, five times, draws a stable pose, takes the best grasp that the gripper reaches and "
     "that\n"

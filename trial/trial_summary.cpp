@@ -73,6 +73,8 @@ double TrialSummary::Kept() const {
   return candidates > 0 ? static_cast<double>(grasps) / candidates : kNan;
 }
 
+bool TrialSummary::HasShare() const { return !std::isnan(held.front().value); }
+
 TrialSummary NotTried(const std::string& object, const std::string& status,
                       const Protocol& protocol) {
   TrialSummary summary;
@@ -94,9 +96,10 @@ TrialSummary SummaryOf(const std::string& object, const PhysicsTrial& trial,
   summary.candidates = trial.candidates;
   summary.grasps = static_cast<int>(trial.grasps.size());
   if (trial.grasps.empty()) {
-    // Nothing to try is nothing held: the paper counts a grasp that was not found so.
     summary.status = "no reachable grasp";
-    summary.held.assign(protocol.stages.size(), {0.0, {0.0, 0.0}});
+    if (protocol.choice == GraspChoice::kBestUnused) {
+      summary.held.assign(protocol.stages.size(), {0.0, {0.0, 0.0}});
+    }
     return summary;
   }
   double predicted = 0.0, quality = 0.0;

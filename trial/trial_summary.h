@@ -37,6 +37,9 @@ struct TrialSummary {
   double quality = 0.0;    // mean robust quality
 
   double Kept() const;  // share of the candidates that became grasps; NaN where none was tried
+  // Whether a share was held of anything. Not of an object that no grasp reaches, whose success is
+  // unknown, but for protocols that want a number of grasps: one that was not found is not held.
+  bool HasShare() const;
 };
 TrialSummary SummaryOf(const std::string& object, const PhysicsTrial& trial,
                        const Protocol& protocol);
@@ -45,6 +48,7 @@ TrialSummary NotTried(const std::string& object, const std::string& status,
                       const Protocol& protocol);
 
 // Percent of the executions held by stage over objects, or the mean paired difference in points.
+// Objects without a share are left out, and so are pairs in which one is.
 MeanInterval HeldOver(const std::vector<TrialSummary>& objects, std::size_t stage);
 MeanInterval DifferenceOver(const std::vector<TrialSummary>& after,
                             const std::vector<TrialSummary>& before, std::size_t stage);

@@ -9,6 +9,7 @@
 #include "antigrasp/core/csv_reader.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
+#include "antigrasp/core/word_count.h"
 
 namespace antigrasp {
 namespace {
@@ -21,28 +22,22 @@ std::string Underscored(std::string name) {
   return name;
 }
 
-std::vector<std::string> TrialColumns(const Protocol& protocol) {
-  std::vector<std::string> columns = {"object",   "protocol",   "side",   "masses",
-                                      "friction", "status",     "mass",   "poses",
-                                      "wanted",   "candidates", "grasps", "executions"};
-  for (std::size_t i = 0; i < protocol.stages.size(); ++i) {
-    const std::string name = i == 0 ? "held" : "held_" + Underscored(protocol.stages[i].name);
-    for (const char* end : {"", "_low", "_high"}) columns.push_back(name + end);
-  }
-  for (const char* group : {"best", "top_quarter", "percentile_75"}) {
-    columns.push_back(std::string("held_") + group);
-  }
-  for (const auto& [outcome, name] : ChoicesOf(Outcome{})) {
-    if (outcome != Outcome::kHeld) columns.push_back(Underscored(std::string(name)));
-  }
-  columns.insert(columns.end(), {"untrusted", "force_closure", "mean_robust_quality"});
-  return columns;
-}
+// "open" of "open: 3 boundary edges".
+std::string Reason(const std::string& status) { return status.substr(0, status.find(':')); }
 
 std::string Percent(double share) {
   char text[32];
   std::snprintf(text, sizeof text, "%5.1f", 100.0 * share);
   return std::isfinite(share) ? text : "    -";
+}
+
+// "; not in it: 2 no reachable grasp, 1 open", or nothing.
+std::string WithoutShare(const std::vector<TrialSummary>& objects) {
+  WordCount reasons;
+  for (const TrialSummary& one : objects) {
+    if (!one.HasShare()) reasons.Add(Reason(one.status));
+  }
+  return (reasons.total() > 0 ? "; not in it: " : "") + reasons.Text();
 }
 
 std::string Row(const TrialSummary& one, std::size_t width) {
@@ -62,6 +57,24 @@ std::string Row(const TrialSummary& one, std::size_t width) {
 }
 
 }  // namespace
+
+std::vector<std::string> TrialColumns(const Protocol& protocol) {
+  std::vector<std::string> columns = {"object",   "protocol",   "side",   "masses",
+                                      "friction", "status",     "mass",   "poses",
+                                      "wanted",   "candidates", "grasps", "executions"};
+  for (std::size_t i = 0; i < protocol.stages.size(); ++i) {
+    const std::string name = i == 0 ? "held" : "held_" + Underscored(protocol.stages[i].name);
+    for (const char* end : {"", "_low", "_high"}) columns.push_back(name + end);
+  }
+  for (const char* group : {"best", "top_quarter", "percentile_75"}) {
+    columns.push_back(std::string("held_") + group);
+  }
+  for (const auto& [outcome, name] : ChoicesOf(Outcome{})) {
+    if (outcome != Outcome::kHeld) columns.push_back(Underscored(std::string(name)));
+  }
+  columns.insert(columns.end(), {"untrusted", "force_closure", "mean_robust_quality"});
+  return columns;
+}
 
 TrialsTable::TrialsTable(const Protocol& protocol) : csv_(TrialColumns(protocol)) {}
 
@@ -172,7 +185,8 @@ std::vector<TrialMean> ReadTrialMeans(const std::filesystem::path& path) {
   return rows;
 }
 
-std::string TrialLines(const std::vector<TrialSummary>& objects, const Protocol& protocol) {
+std::string TrialLines(const std::vector<TrialSummary>& objects, const Protocol& protocol,
+                       const MetricOptions& metric) {
   std::size_t width = 6;
   for (const TrialSummary& one : objects) width = std::max(width, one.object.size());
   std::string text = "object" + std::string(width - 6, ' ') + "   mass g   kept  grasps  " +
@@ -182,7 +196,8 @@ std::string TrialLines(const std::vector<TrialSummary>& objects, const Protocol&
     const std::string& name = protocol.stages[i].name;
     text += std::string(7 - std::min<std::size_t>(7, name.size()), ' ') + name;
   }
-  text += "   best    top  force closure\n";
+  text += "   best    top  ";
+  text += metric.closing == ClosingEnd::kSettled ? "settled holds\n" : "force closure\n";
   for (const TrialSummary& one : objects) text += Row(one, width);
   return text;
 }
@@ -201,8 +216,8 @@ std::string TrialMeans(const std::vector<TrialSummary>& objects, const Protocol&
     for (std::size_t k = 0; k < outcomes.size(); ++k) outcomes[k] += one.outcomes[k];
   }
   text += " % of the executions (mean over " + std::to_string(HeldOver(objects, 0).count) + " of " +
-          std::to_string(objects.size()) + " objects)\n" + std::to_string(executions) +
-          " executions:";
+          std::to_string(objects.size()) + " objects" + WithoutShare(objects) + ")\n" +
+          std::to_string(executions) + " executions:";
   for (const auto& [outcome, name] : ChoicesOf(Outcome{})) {
     char part[80];
     const auto count = outcomes[static_cast<std::size_t>(outcome)];
@@ -217,16 +232,25 @@ std::string TrialMeans(const std::vector<TrialSummary>& objects, const Protocol&
 
 std::string TrialDifference(const std::vector<TrialSummary>& after,
                             const std::vector<TrialSummary>& before, const Protocol& protocol) {
+  std::vector<TrialSummary> paired;  // originals
+  WordCount without;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    if (!before[i].HasShare()) {
+      without.Add("before: " + Reason(before[i].status));
+    } else if (!after[i].HasShare()) {
+      without.Add("after: " + Reason(after[i].status));
+    } else {
+      paired.push_back(before[i]);
+    }
+  }
   std::string text;
   for (std::size_t i = 0; i < protocol.stages.size(); ++i) {
-    const MeanInterval difference = DifferenceOver(after, before, i);
-    char part[160];
-    std::snprintf(part, sizeof part, "%s%s %s points of %.1f", i == 0 ? "" : ", ",
-                  protocol.stages[i].name.c_str(), MeanText(difference, 1).c_str(),
-                  HeldOver(before, i).mean);
-    text += part;
+    text += (i == 0 ? "" : ", ") + protocol.stages[i].name + " " +
+            MeanText(DifferenceOver(after, before, i), 1) + " points of " +
+            MeanText({HeldOver(paired, i).mean, std::nan(""), 0}, 1);
   }
-  return text + " (" + std::to_string(DifferenceOver(after, before, 0).count) + " pairs)";
+  return text + " (" + std::to_string(paired.size()) + " pairs" +
+         (without.total() > 0 ? "; not paired: " : "") + without.Text() + ")";
 }
 
 }  // namespace antigrasp

@@ -15,6 +15,7 @@ struct TrialRun {
   std::string side;      // "after", or "before" of a baseline
   std::string masses;    // "own" or "equal"
   double friction = 0.0;
+  bool operator==(const TrialRun&) const = default;
 };
 
 // trials.csv (docs/formats.md): a row an object, side and kind of mass.
@@ -27,6 +28,16 @@ class TrialsTable {
  private:
   CsvWriter csv_;
 };
+
+std::vector<std::string> TrialColumns(const Protocol& protocol);
+
+// A row of it, to the last bit.
+struct TrialRow {
+  TrialRun run;
+  TrialSummary summary;
+};
+// InputError with file:line for a table that is damaged or of another protocol.
+std::vector<TrialRow> ReadTrialRows(const std::filesystem::path& path, const Protocol& protocol);
 
 // executions.csv: a row an execution.
 class ExecutionsTable {
@@ -64,11 +75,13 @@ struct TrialMean {
 // InputError with file:line for a table that is damaged, without rows or of another kind.
 std::vector<TrialMean> ReadTrialMeans(const std::filesystem::path& path);
 
-// The same for the eye.
-std::string TrialLines(const std::vector<TrialSummary>& objects, const Protocol& protocol);
-// "held 71.2 +-3.4 % of 12 objects, 3 g 60 ..." and what became of the others.
+// The same for the eye. The last column is what the metric says of the same executions.
+std::string TrialLines(const std::vector<TrialSummary>& objects, const Protocol& protocol,
+                       const MetricOptions& metric);
+// "held: 1 g 71.2 +-3.4 ... (mean over 12 of 14 objects; not in it: 2 no reachable grasp)" and what
+// became of the executions.
 std::string TrialMeans(const std::vector<TrialSummary>& objects, const Protocol& protocol);
-// "-3.1 +-2.0 points of 76.2 (50 pairs, ...)" for every stage.
+// "1 g -3.1 +-2.0 points of 76.2, ... (48 pairs; not paired: 2 after: no reachable grasp)".
 std::string TrialDifference(const std::vector<TrialSummary>& after,
                             const std::vector<TrialSummary>& before, const Protocol& protocol);
 

@@ -459,5 +459,40 @@ TEST(EvaluateCli, AJudgeThatIsGivenUpCostsNoScore) {
   EXPECT_TRUE(fs::exists(folder / "s.csv.metric.toml"));
 }
 
+// What the metric says is written, too; the exit code is that of a set without a score.
+TEST(EvaluateCli, AJudgeThatScoresNothingIsTold) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteMesh(folder / "cube.stl", shapes::Cube());
+  folder.Write("null.sh", "sed -u 's/.*\"id\":\\([0-9]*\\).*/{\"id\": \\1, \"score\": null}/'\n");
+  const Outcome outcome =
+      Antigrasp("evaluate " + dir + "cube.stl --num-grasps 5 --num-draws 1 --judge 'sh " + dir +
+                "null.sh' --judge-limit 20 --out " + dir + "s.csv");
+  EXPECT_EQ(outcome.code, 2) << outcome.text;
+  EXPECT_NE(outcome.text.find("antigrasp: the judge scored no object: 0 scored, 1 no score"),
+            std::string::npos)
+      << outcome.text;
+  EXPECT_EQ(CsvRows(folder / "s.csv")[0].at("judge_status"), "no score");
+  const std::string toml = ReadFile(folder / "s.csv.metric.toml");
+  EXPECT_NE(toml.find("null.sh"), std::string::npos) << toml;
+  EXPECT_NE(toml.find("\nlimit = 20"), std::string::npos) << toml;
+}
+
+// Planned at true size, asked about at 40 mm, and about another object.
+TEST(EvaluateCli, GraspsOfAnotherSizeOrObjectAreRefused) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteMesh(folder / "box.stl", shapes::Box({30.0, 40.0, 50.0}));
+  WriteMesh(folder / "other.stl", shapes::Box({30.0, 40.0, 50.0}));
+  const std::string size = " --units mm --true-size --num-grasps 4 ";
+  ASSERT_EQ(Antigrasp("evaluate " + dir + "box.stl --grasps " + dir + "g.csv" + size).code, 0);
+  const std::string given = " --grasps-in " + dir + "g.csv ";
+  EXPECT_EQ(Antigrasp("evaluate " + dir + "box.stl" + given + size).code, 0);
+  cli::ExpectRefused("evaluate " + dir + "box.stl" + given,
+                     "grasps of box.stl at metres_per_unit 0.001, which is scored at 0.00133");
+  cli::ExpectRefused("evaluate " + dir + "other.stl" + given + size,
+                     "grasps of box.stl, no grasp of other.stl");
+}
+
 }  // namespace
 }  // namespace antigrasp

@@ -90,6 +90,7 @@ TEST(JudgedSearchCli, ListensToAProgram) {
   CsvReader rows(folder / "out/perturb.csv");
   ASSERT_TRUE(rows.Next());
   EXPECT_EQ(rows.NumberOrGap(rows.RequiredColumn("judge_after")), 0.5);
+  EXPECT_NE(ReadFile(folder / "out/perturb.toml").find("\n[judge]\nname = "), std::string::npos);
   EXPECT_EQ(rows.NumberOrGap(rows.RequiredColumn("moved")), 0.0);
 }
 

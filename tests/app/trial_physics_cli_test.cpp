@@ -148,14 +148,81 @@ TEST_F(TrialPhysicsCli, ABaselinePairsWhatBothSidesHave) {
 TEST_F(TrialPhysicsCli, AnObjectThatCannotBeTriedIsCountedBesideOthers) {
   const std::string text =
       Run(Trial("after/cube.stl") + File("wide.stl") + " " + File("open.stl")).text;
-  // Without a reachable grasp nothing of it is held; with a hole nothing is known.
-  EXPECT_NE(text.find("mean over 2 of 3 objects"), std::string::npos) << text;
+  // Without a reachable grasp as little is known of it as with a hole.
+  EXPECT_NE(text.find("(mean over 1 of 3 objects; not in it: 1 no reachable grasp, 1 open)"),
+            std::string::npos)
+      << text;
   EXPECT_NE(text.find("no reachable grasp"), std::string::npos) << text;
   EXPECT_NE(text.find("open: 3 boundary edges"), std::string::npos) << text;
   const cli::Outcome alone = Antigrasp(Trial("wide.stl") + "--out " + File("none"));
   EXPECT_EQ(alone.code, 2) << alone.text;
   EXPECT_NE(alone.text.find("wide.stl: no reachable grasp"), std::string::npos) << alone.text;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
+}
+
+TEST_F(TrialPhysicsCli, CtrlCKeepsWhatWasTriedAndTheSameCallGoesOn) {
+  std::string many = "trial";
+  for (int i = 0; i < 30; ++i) {
+    const std::string name = std::to_string(100 + i) + ".stl";
+    WriteMesh(folder_ / name, shapes::Box({30.0 + 0.1 * i, 32.0, 50.0}));
+    many += " " + File(name);
+  }
+  many += " --mm --num-grasps 40 --draws 4 --threads 1 --out ";
+  cli::Outcome outcome;
+  for (const char* seconds : {"1", "2", "4", "8", "16"}) {  // until it came as far as the work
+    outcome = cli::Shell(std::string("timeout -s INT ") + seconds + " " ANTIGRASP_BINARY " " +
+                         many + File("t"));
+    if (std::filesystem::exists(folder_ / "t" / "trials.csv")) break;
+  }
+  EXPECT_NE(outcome.text.find("antigrasp: interrupted\n"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find(" of 30 trials of an object; the same call"), std::string::npos)
+      << outcome.text;
+  const std::size_t rows = Table(folder_ / "t" / "trials.csv").size();
+  EXPECT_GT(rows, 0u);
+  EXPECT_LT(rows, 30u);
+  Run(many + File("t"));
+  Run(many + File("whole"));
+  EXPECT_TRUE(shapes::FileContents(folder_ / "t") == shapes::FileContents(folder_ / "whole"));
+}
+
+TEST_F(TrialPhysicsCli, InfoSaysWhatItsFolderAndOneOfPairsHold) {
+  Run(Trial("after/cube.stl") + "--out " + File("t"));
+  const std::string text = Run("info " + File("t")).text;
+  EXPECT_NE(text.find(": trials, six-ways, fingertip sphere of 5 mm, mujoco "), std::string::npos)
+      << text;
+  EXPECT_EQ(Run("info --csv " + File("t")).text, ReadFile(folder_ / "t" / "means.csv"));
+  Run("dataset pair " + File("before/cube.stl") + " " + File("after/cube.stl") +
+      " --units mm --true-size --num-grasps 4 --draws 1 --out " + File("pairs"));
+  EXPECT_NE(Run("info " + File("pairs")).text.find(": pairs of objects, 1 (1 train)\n"),
+            std::string::npos);
+  ExpectRefused("info --csv " + File("pairs"), "no table of");
+}
+
+TEST_F(TrialPhysicsCli, TheSettledMetricsColumnIsNotCalledForceClosure) {
+  const std::string cube = Trial("after/cube.stl");
+  EXPECT_NE(Run(cube).text.find("   top  force closure\n"), std::string::npos);
+  EXPECT_NE(Run(cube + "--preset settled").text.find("   top  settled holds\n"), std::string::npos);
+}
+
+// A judge is a trial: the same options, the same numbers.
+TEST_F(TrialPhysicsCli, ATrialAsJudgeTakesItsOptionsAndSaysThem) {
+  const std::string options = " --num-grasps 6 --draws 2 --num-draws 2 --mass 0.3 --friction 0.3 ";
+  Run("trial " + File("after/cube.stl") + " --mm" + options + "--out " + File("t"));
+  Run("evaluate " + File("after/cube.stl") + " --units mm --true-size --judge trial" + options +
+      "--out " + File("s.csv"));
+  EXPECT_EQ(Table(folder_ / "s.csv")[0]["judge"], Table(folder_ / "t" / "trials.csv")[0]["held"]);
+  const std::string toml = ReadFile(folder_ / "s.csv.metric.toml");
+  EXPECT_NE(toml.find("\n[judge]\nname = 'trial:six-ways'"), std::string::npos) << toml;
+  EXPECT_NE(toml.find("\nmass = 0.3"), std::string::npos) << toml;
+  const std::string judge = "evaluate " + File("after/cube.stl") + " --judge ";
+  ExpectRefused(judge + "settled --mass 0.3", "judge settled has no such thing (--mass 0.3)");
+  ExpectRefused(judge + "trial:paper --draws 2", "protocol paper has no such thing (--draws 2)");
+  const cli::Outcome none = Antigrasp("evaluate " + File("wide.stl") +
+                                      " --units mm --true-size --num-grasps 5 --judge trial");
+  EXPECT_EQ(none.code, 2) << none.text;
+  EXPECT_NE(none.text.find("the judge scored no object: 0 scored, 1 no reachable grasp"),
+            std::string::npos)
+      << none.text;
 }
 
 TEST_F(TrialPhysicsCli, AUsedFolderStaysAsItIsUnlessItMayBeOverwritten) {

@@ -21,9 +21,15 @@ JudgeOptions FewGrasps() {
   return options;
 }
 
-std::string WhyNot(const std::string& name) {
+// As if one option had been typed.
+TypedTrial Typed(const std::string& key, const std::string& value) {
+  return {[=](OptionTable* table) { table->ApplyValue(key, value, "typed"); },
+          [=](const std::string& other) { return other == key ? key + " " + value : ""; }};
+}
+
+std::string WhyNot(const std::string& name, const JudgeOptions& options = {}) {
   try {
-    MakeJudge(name, {});
+    MakeJudge(name, options);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -59,7 +65,42 @@ TEST(MakeJudge, TrialIsTheShareHeldAtEqualMass) {
   EXPECT_EQ(trial.mass, 0.05);
   EXPECT_EQ(verdict.score, SummaryOf("box", trial, trials.protocol()).held.front().value);
   options.metric.jaw_opening = 0.03;
-  EXPECT_EQ(MakeJudge("trial", options)->Score({{"wide", &wide, 3}}).front().score, 0.0);
+  const Verdict none = MakeJudge("trial", options)->Score({{"wide", &wide, 3}}).front();
+  EXPECT_FALSE(none.score);
+  EXPECT_EQ(none.status, "no reachable grasp");
+}
+
+TEST(MakeJudge, WhatWasTypedGoesBeforeTheProtocolAndIsRecorded) {
+  JudgeOptions options = FewGrasps();
+  options.metric.friction_std = 0.0;
+  options.typed = Typed("trial.mass", "0.3");
+  const auto heavy = MakeJudge("trial:dexgraspbench", options);
+  std::string toml = heavy->Toml();
+  EXPECT_NE(toml.find("\n[judge]\nname = 'trial:dexgraspbench'"), std::string::npos) << toml;
+  EXPECT_NE(toml.find("\n[judge.trial]\n"), std::string::npos) << toml;
+  EXPECT_NE(toml.find("\nmass = 0.3"), std::string::npos) << toml;
+  EXPECT_NE(toml.find("\nfriction = 0.6"), std::string::npos) << toml;  // the protocol's
+  options.typed.friction = true;
+  options.metric.friction = 0.02;  // lets go of what is held at 0.6
+  const TriangleMesh cube = shapes::Cube();
+  EXPECT_LT(MakeJudge("trial:dexgraspbench", options)->Score({{"cube", &cube, 3}})[0].score, 0.5);
+  EXPECT_NE(MakeJudge("trial", FewGrasps())->Toml().find("\nmass = 0.05"), std::string::npos);
+}
+
+TEST(MakeJudge, OptionsOfATrialAreRefusedWhereTheyAreOfNoUse) {
+  const auto why = [](const std::string& name, const std::string& key, const std::string& value) {
+    JudgeOptions options;
+    options.typed = Typed(key, value);
+    return WhyNot(name, options);
+  };
+  EXPECT_EQ(why("settled", "trial.mass", "0.1"),
+            "judge settled has no such thing (trial.mass 0.1): expected --judge trial or "
+            "trial:PROTOCOL");
+  EXPECT_EQ(why("trial:paper", "trial.draws", "3"),
+            "protocol paper has no such thing (trial.draws 3): expected --executions");
+  EXPECT_EQ(why("trial", "trial.pad_width", "0.01"),
+            "a ball has no such thing (trial.pad_width 0.01): expected --tip pad");
+  EXPECT_EQ(why("trial", "trial.draws", "3"), "");
 }
 
 TEST(MakeJudge, AProtocolBringsItsOwnMassAndFriction) {
@@ -75,6 +116,23 @@ TEST(MakeJudge, AProtocolBringsItsOwnMassAndFriction) {
   EXPECT_LT(MakeJudge("trial:six-ways", options)->Score(shown).front().score, 0.5);
 }
 #endif
+
+TEST(MakeJudge, EveryJudgeSaysWhatItWasSetTo) {
+  JudgeOptions options = FewGrasps();
+  options.program = {7.5, 2};
+  EXPECT_NE(MakeJudge("settled", options)->Toml().find("\nclosing = 'settled'"), std::string::npos)
+      << MakeJudge("settled", options)->Toml();
+  std::string name, limit;
+  ProgramLimits limits;
+  OptionTable table;
+  table.Add("judge.name", &name, {}, "");
+  table.Add("judge.limit", &limits.seconds, 0.0, 1e6, "");
+  table.Add("judge.restarts", &limits.restarts, 0, 100, "");
+  table.ApplyText(MakeJudge("./judge \"a b\" 'c'", options)->Toml(), "toml");
+  EXPECT_EQ(name, "./judge \"a b\" 'c'");
+  EXPECT_EQ(limits.seconds, 7.5);
+  EXPECT_EQ(limits.restarts, 2);
+}
 
 TEST(MakeJudge, AProtocolThatDoesNotExistIsRefused) {
   EXPECT_EQ(WhyNot("trial:shake"),

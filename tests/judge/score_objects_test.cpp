@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "antigrasp/core/error.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
@@ -26,7 +27,8 @@ class Counts final : public Judge {
     return verdicts;
   }
   std::vector<std::string> Notes() const override { return {"a note"}; }
-  std::string batches_, names_;
+  std::string Stopped() const override { return stopped_; }
+  std::string batches_, names_, stopped_;
 };
 
 TEST(ScoreObjects, AJudgeSeesEveryUsableObjectOnceInBatchesAndItsVerdictStandsInTheRow) {
@@ -66,6 +68,28 @@ TEST(ScoreObjects, AJudgeSeesEveryUsableObjectOnceInBatchesAndItsVerdictStandsIn
   EXPECT_NE(warnings.find("judge: a note\n"), std::string::npos) << warnings;
   EXPECT_NE(table.Csv().find(",judge,judge_status\na.stl,"), std::string::npos) << table.Csv();
   EXPECT_NE(table.Csv().find(",12,ok\nb.stl,"), std::string::npos) << table.Csv();
+  RequireAVerdict(set, &judge);
+}
+
+// The metric's scores are written first: what is refused is a judge that said nothing.
+TEST(RequireAVerdict, RefusesAJudgeThatScoredNothingAndNamesWhy) {
+  ScoredSet set{MetricOptions()};
+  Counts judge;
+  for (const char* why : {"no score", "no score", "late"}) set.AddVerdict(Verdict::None(why));
+  RequireAVerdict(set, nullptr);
+  try {
+    RequireAVerdict(set, &judge);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "the judge scored no object: 0 scored, 2 no score, 1 late (--judge triangles): "
+                 "expected a finite score of at least one");
+  }
+  judge.stopped_ = "it died";
+  EXPECT_THROW(RequireAVerdict(set, &judge), RuntimeFailure);
+  judge.stopped_.clear();
+  set.AddVerdict(Verdict::Of(0.5));
+  RequireAVerdict(set, &judge);
 }
 
 }  // namespace

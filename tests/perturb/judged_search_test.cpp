@@ -102,7 +102,7 @@ TEST(PerturbByJudge, WhatItWritesAndWhatItAsksAboutNeverExceedsABudget) {
   }
 }
 
-TEST(PerturbByJudge, KeepsTheOriginalWhenNothingIsBetterOrHasAScore) {
+TEST(PerturbByJudge, KeepsTheOriginalWhenNothingIsBetterAndSaysWhenNothingHasAScore) {
   const TriangleMesh cube = FineCube();
   const auto is_cube = [&](const TriangleMesh& mesh) { return mesh.vertices == cube.vertices; };
   Oracle likes_cubes([&](const TriangleMesh& mesh) { return Verdict::Of(is_cube(mesh) ? 0 : 1); });
@@ -111,7 +111,8 @@ TEST(PerturbByJudge, KeepsTheOriginalWhenNothingIsBetterOrHasAScore) {
   });
   Oracle equal([](const TriangleMesh&) { return Verdict::Of(0.5); });
   Oracle blind([](const TriangleMesh&) { return Verdict::None("blind"); });
-  for (Oracle* judge : {&likes_cubes, &sees_cubes, &equal, &blind}) {
+  EXPECT_EQ(Search(Quick(), &blind).failure, "no score by the judge: blind");
+  for (Oracle* judge : {&likes_cubes, &sees_cubes, &equal}) {
     const PerturbResult result = Search(Quick(), judge);
     EXPECT_EQ(result.failure, "");
     EXPECT_EQ(result.moved, 0);

@@ -232,7 +232,9 @@ TEST(PhysicsTrials, AnObjectWiderThanTheJawsOpenHasNoGrasp) {
                                      {});
   const TrialSummary summary = SummaryOf("wide", trial, ProtocolOf(ProtocolName::kSixWays));
   EXPECT_EQ(summary.status, "no reachable grasp");
-  EXPECT_EQ(summary.held[0].value, 0.0);
+  EXPECT_FALSE(summary.HasShare());
+  // A protocol that wants grasps counts those that were not found.
+  EXPECT_EQ(SummaryOf("wide", trial, ProtocolOf(ProtocolName::kPaper)).held[0].value, 0.0);
 }
 
 TEST(TrialSummary, GroupsAreByRobustQuality) {

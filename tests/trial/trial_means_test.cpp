@@ -68,6 +68,65 @@ TEST(MeansTable, SetsAHalfWidthBesideTheMeanOfTheOriginals) {
   EXPECT_EQ(row.difference.count, 2);
 }
 
+// Of four pairs one has no grasp after and one none before: what is left loses 30 and 10 points of
+// 90 and 70.
+TEST(TrialDifference, CountsThePairsThatItLeavesOutByTheirReasons) {
+  std::vector<TrialSummary> after = {Held(0.6, 0.3, 0.2), Held(kNan, kNan, kNan),
+                                     Held(0.6, 0.3, 0.2), Held(0.5, 0.3, 0.2)};
+  std::vector<TrialSummary> before = {Held(0.9, 0.8, 0.7), Held(0.1, 0.8, 0.7), Held(0.7, 0.8, 0.7),
+                                      Held(kNan, kNan, kNan)};
+  after[1].status = "no reachable grasp";
+  before[3].status = "open: 3 boundary edges";
+  const Protocol protocol = ProtocolOf(ProtocolName::kSixWays);
+  const std::string text = TrialDifference(after, before, protocol);
+  EXPECT_TRUE(text.starts_with("1 g -20.0 +-19.6 points of 80.0, 3 g -50.0 +-0.0 points of 80.0"))
+      << text;
+  EXPECT_TRUE(text.ends_with("(2 pairs; not paired: 1 after: no reachable grasp, 1 before: open)"))
+      << text;
+  EXPECT_NE(TrialMeans(before, protocol).find("(mean over 3 of 4 objects; not in it: 1 open)"),
+            std::string::npos);
+  EXPECT_NE(TrialMeans({after[0]}, protocol).find("(mean over 1 of 1 objects)"), std::string::npos);
+}
+
+// The same column is about force closure, or about what holds once it has settled.
+TEST(TrialLines, NamesItsLastColumnByWhatTheMetricLooksAt) {
+  const Protocol protocol = ProtocolOf(ProtocolName::kSixWays);
+  MetricOptions metric;
+  const auto header = [&] {
+    const std::string text = TrialLines({}, protocol, metric);
+    return text.substr(0, text.find('\n'));
+  };
+  EXPECT_TRUE(header().ends_with("   best    top  force closure")) << header();
+  ApplyMetricPreset("settled", &metric);
+  EXPECT_TRUE(header().ends_with("   best    top  settled holds")) << header();
+}
+
+TEST(ReadTrialRows, TakesBackEveryNumberOfARow) {
+  const TempFolder folder;
+  const Protocol protocol = ProtocolOf(ProtocolName::kSixWays);
+  TrialSummary one = Held(1.0 / 3.0, 0.25, 0.125);
+  one.object = "a, \"b\".stl";
+  one.mass = 0.1;
+  one.poses = 6, one.wanted = 7, one.candidates = 30, one.grasps = 5, one.executions = 12;
+  for (std::size_t i = 0; i < 3; ++i) one.held[i].interval = {0.1 * double(i), 0.7};
+  one.group = {1.0 / 3.0, 0.5, 1.0 / 7.0, kNan};
+  one.outcomes = {4, 1, 2, 0, 3, 1, 1};
+  one.untrusted = 2, one.predicted = 0.9, one.quality = 1e-3;
+  TrialSummary none = NotTried("none.stl", "no reachable grasp", protocol);
+  const TrialRun run{"six-ways", "before", "equal", 0.1};
+  TrialsTable table(protocol), again(protocol);
+  table.Add(run, one);
+  table.Add(run, none);
+  const auto path = folder.Write("trials.csv", table.text());
+  const std::vector<TrialRow> rows = ReadTrialRows(path, protocol);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].summary.outcomes, one.outcomes);
+  EXPECT_EQ(rows[0].run, run);
+  for (const TrialRow& row : rows) again.Add(row.run, row.summary);
+  EXPECT_EQ(again.text(), table.text());
+  EXPECT_THROW(ReadTrialRows(path, ProtocolOf(ProtocolName::kPaper)), InputError);
+}
+
 TEST(ReadTrialMeans, TakesEveryColumnByItsNameAndAnEmptyFieldForAGap) {
   const TempFolder folder;
   const auto path = folder.Write(

@@ -1,0 +1,130 @@
+#include "antigrasp/trial/trial_results.h"
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/options.h"
+#include "antigrasp/core/rng.h"
+#include "antigrasp/core/version.h"
+
+namespace antigrasp {
+namespace {
+
+namespace fs = std::filesystem;
+
+const ResultFiles kTrialFiles = {
+    "trials.csv", {"executions.csv", "means.csv", "replays.json", "trial.toml"}, {}};
+constexpr const char* kConstants = "trial.toml";
+constexpr const char* kUnfinished = "\n[unfinished]\n";  // behind them
+
+void Bind(OptionTable* table, Unfinished* unfinished) {
+  table->Add("unfinished.done", &unfinished->done, "trials; the same call goes on");
+  table->Add("unfinished.of", &unfinished->of, "trials that the call has to make");
+  table->Add("unfinished.meshes", &unfinished->meshes, "hash of those tried");
+  table->Add("unfinished.replays", &unfinished->replays, "of an object");
+  table->Add("unfinished.program", &unfinished->program, {}, "that made them");
+}
+
+// The part of a saved trial.toml that a finished one has.
+std::string ConstantsOf(const std::string& toml) { return toml.substr(0, toml.find(kUnfinished)); }
+
+// In pieces: it may be larger than memory.
+void AppendFile(const fs::path& from, std::uintmax_t bytes, AtomicFile* to) {
+  std::ifstream in(from, std::ios::binary);
+  std::string piece;
+  for (std::uintmax_t left = bytes; left > 0; left -= piece.size()) {
+    piece.resize(static_cast<std::size_t>(std::min<std::uintmax_t>(left, 1 << 20)));
+    if (!in.read(piece.data(), std::ssize(piece))) {
+      throw InputError("is cut short", from.string(), "what an interrupted call wrote");
+    }
+    to->Append(piece);
+  }
+}
+
+}  // namespace
+
+std::optional<Unfinished> ReadUnfinished(const fs::path& folder) {
+  if (!fs::is_regular_file(folder / kConstants)) return std::nullopt;
+  const std::string toml = ReadFile(folder / kConstants);
+  const std::size_t at = toml.find(kUnfinished);
+  if (at == std::string::npos) return std::nullopt;
+  Unfinished unfinished;
+  OptionTable table;
+  Bind(&table, &unfinished);
+  table.ApplyText(toml.substr(at), (folder / kConstants).string());
+  return unfinished;
+}
+
+TrialResults::TrialResults(const PhysicsTrialRequest& request, const Protocol& protocol,
+                           const ObjectSource& objects, std::string constants, std::uint64_t of)
+    : out_(request.out),
+      constants_(std::move(constants)),
+      unfinished_{0, of, 0, static_cast<std::uint64_t>(request.replays),
+                  ProgramVersion() + " " + ProgramCommit()},
+      trials_(protocol) {
+  if (out_.empty()) return;
+  const auto begun = request.overwrite ? std::nullopt : ReadUnfinished(out_);
+  if (begun) {
+    if (begun->of != of || begun->replays != unfinished_.replays ||
+        begun->program != unfinished_.program ||
+        ConstantsOf(ReadFile(out_ / kConstants)) != constants_) {
+      throw InputError("holds an interrupted trial of other settings", request.out,
+                       "the settings that it began with, a new folder, or --overwrite");
+    }
+    done_ = ReadTrialRows(out_ / kTrialFiles.table, protocol);
+    meshes_of_done_ = begun->meshes;
+  }
+  folder_.emplace(out_, kTrialFiles, objects, request.overwrite || begun.has_value());
+  executions_file_.emplace(folder_->path() / "executions.csv");
+  replays_file_.emplace(folder_->path() / "replays.json");
+  if (begun) GoOn();
+}
+
+void TrialResults::GoOn() {
+  const fs::path executions = out_ / "executions.csv", replays = out_ / "replays.json";
+  for (const fs::path& file : {executions, replays}) RequireFile(file, "as the trial left it");
+  AppendFile(executions, fs::file_size(executions), &*executions_file_);
+  executions_.TakeText();  // the header is there
+  const std::uintmax_t size = fs::file_size(replays), end = ReplayFile().EndText().size() -
+                                                            ReplayFile().TakeText().size();
+  const std::uintmax_t kept = size - std::min(size, end);
+  AppendFile(replays, kept, &*replays_file_);
+  replays_.GoOnBehind(kept);
+}
+
+void TrialResults::Add(const TrialRun& run, const TrialSummary& summary, const PhysicsTrial* trial,
+                       const std::vector<std::string>& replays, std::uint64_t mesh) {
+  trials_.Add(run, summary);
+  Unfinished& now = unfinished_;
+  now.meshes = HashOf(std::to_string(now.meshes) + " " + std::to_string(mesh)) >> 1;  // TOML's own
+  if (++now.done == done_.size() && now.meshes != meshes_of_done_) {
+    throw InputError("holds an interrupted trial of other objects", out_.string(),
+                     "the objects that it began with, a new folder, or --overwrite");
+  }
+  if (trial == nullptr || !executions_file_) return;
+  executions_.Add(run, summary.object, *trial);
+  executions_file_->Append(executions_.TakeText());
+  for (const std::string& replay : replays) replays_.Add(replay);
+  replays_file_->Append(replays_.TakeText());
+}
+
+void TrialResults::Commit() {
+  if (!folder_) return;
+  executions_file_->Append(executions_.TakeText());  // the header, where nothing was executed
+  executions_file_->Commit();
+  replays_file_->Append(replays_.EndText());
+  replays_file_->Commit();
+  WriteFileAtomic(folder_->path() / "means.csv", means_.text());
+  std::string toml = constants_;
+  if (!finished()) {
+    OptionTable table;
+    Bind(&table, &unfinished_);
+    toml += "\n" + table.Dump();
+  }
+  WriteFileAtomic(folder_->path() / kConstants, toml);
+  folder_->Commit(trials_.text());
+}
+
+}  // namespace antigrasp
