@@ -1,10 +1,13 @@
 #include "antigrasp/judge/datasheet.h"
 
+#include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "antigrasp/core/format.h"
 #include "antigrasp/core/statistics.h"
 #include "antigrasp/core/version.h"
+#include "antigrasp/judge/pair_split.h"
 #include "antigrasp/quality/object_size.h"
 
 namespace antigrasp {
@@ -15,6 +18,8 @@ std::string BeforeAfter(const std::array<std::vector<double>, 2>& values, double
                         int decimals) {
   std::array<std::vector<double>, 3> scaled;
   for (std::size_t i = 0; i < values[0].size(); ++i) {
+    const double difference = factor * (values[1][i] - values[0][i]);
+    if (std::isnan(difference)) continue;  // of pairs
     scaled[0].push_back(factor * values[0][i]);
     scaled[1].push_back(factor * values[1][i]);
     scaled[2].push_back(scaled[1].back() - scaled[0].back());
@@ -43,6 +48,7 @@ void Datasheet::Add(const LabelledObject& before, const LabelledObject& after) {
   for (std::size_t k = 0; k < 2; ++k) {
     graspability_[k].push_back(sides[k]->score.value);
     held_[k].push_back(sides[k]->summary.held.front().value);
+    if (!sides[k]->summary.HasShare()) without_share_[k].Add(sides[k]->summary.status);
     grasps_[k] += sides[k]->summary.grasps;
     executions_[k] += sides[k]->summary.executions;
   }
@@ -51,7 +57,29 @@ void Datasheet::Add(const LabelledObject& before, const LabelledObject& after) {
 std::string Datasheet::Means() const {
   return "| judge | before | after | change |\n| --- | --- | --- | --- |\n| graspability | " +
          BeforeAfter(graspability_, 1.0, 5) + " |\n| held, % of executions | " +
-         BeforeAfter(held_, 100.0, 1) + " |\n";
+         BeforeAfter(held_, 100.0, 1) + " |\n" + Missing();
+}
+
+// "No share held, left out of its means: 1 no reachable grasp before, 2 after."; or nothing.
+std::string Datasheet::Missing() const {
+  std::string text;
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (without_share_[k].total() == 0) continue;
+    text += (text.empty() ? "" : ", ") + without_share_[k].Text() + (k == 0 ? " before" : " after");
+  }
+  return text.empty() ? "" : "\nWithout a share held, and in no mean of it: " + text + ".\n";
+}
+
+std::vector<std::string> Datasheet::EmptySplits() const {
+  static const std::map<std::string, std::string> kFor = {
+      {"train", "to train on"}, {"test", "to test on"}, {"val", "to validate on"}};
+  std::vector<std::string> sentences;
+  for (const std::string& split : SplitsWithShare(request_.train, request_.val)) {
+    if (splits_.Of(split) > 0) continue;
+    sentences.push_back("no pair " + kFor.at(split) + " (split " + split + ") among " +
+                        std::to_string(pairs()));
+  }
+  return sentences;
 }
 
 std::string Datasheet::Summary() const {
@@ -113,6 +141,7 @@ std::string Datasheet::Text() const {
       "\n## Splits\n\nBy object, drawn from the seed: both sides of an object, and all its "
       "grasps, are in one split. Objects of one family\n(samples of one generator) are not kept "
       "apart.\n\n";
+  for (const std::string& sentence : EmptySplits()) text += "There is " + sentence + ".\n\n";
   text +=
       "## Uses\n\nLabels are a simulation's, of one gripper (`metric.toml`). A policy that is "
       "trained on them should be tested on\nobjects of another source, and on a robot.\n\n";

@@ -112,7 +112,9 @@ PairReport WritePairDataset(const PairRequest& request, const MetricOptions& met
   const std::vector<std::string> splits =
       SplitOf(names, after.streams(), request.train, request.val, request.seed);
   PhysicsTrials(trial_metric, trial, request.seed, 1);  // refuses what cannot be
-  ResultFolder folder(request.out, kPairFiles, after, request.overwrite);
+  const std::filesystem::path out = request.out;
+  for (const char* side : kSides) before.RequireNotSearched(out / side);
+  ResultFolder folder(out, kPairFiles, after, request.overwrite);
   for (const char* side : kSides) MakeFolder(folder.path() / side);
   PairObjects objects;
   std::array<PairGrasps, 2> grasps;
@@ -166,6 +168,7 @@ PairReport WritePairDataset(const PairRequest& request, const MetricOptions& met
   WriteFileAtomic(folder.path() / "trial.toml", TomlOf(trial_metric, trial, request.seed));
   WriteFileAtomic(folder.path() / "datasheet.md", sheet.Text());
   folder.Commit("");
+  for (const std::string& sentence : sheet.EmptySplits()) report.warnings.push_back(sentence);
   report.text = request.out + ": " + sheet.Summary();
   return report;
 }

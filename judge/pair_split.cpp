@@ -8,6 +8,19 @@
 #include "antigrasp/core/rng.h"
 
 namespace antigrasp {
+namespace {
+
+constexpr double kNoShare = 1e-9;
+
+}  // namespace
+
+std::vector<std::string> SplitsWithShare(double train, double val) {
+  std::vector<std::string> splits;
+  if (train > kNoShare) splits.emplace_back("train");
+  if (1.0 - train - val > kNoShare) splits.emplace_back("test");
+  if (val > kNoShare) splits.emplace_back("val");
+  return splits;
+}
 
 std::vector<std::string> SplitOf(const std::vector<std::string>& names,
                                  const std::vector<std::uint64_t>& streams, double train,
@@ -20,13 +33,17 @@ std::vector<std::string> SplitOf(const std::vector<std::string>& names,
   };
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  // Held-out objects first: a small set is no use without them.
   const auto share = [&](double part) {
     const auto rounded = static_cast<std::size_t>(std::lround(part * static_cast<double>(count)));
-    return part > 1e-9 ? std::max<std::size_t>(rounded, 1) : 0;
+    return part > kNoShare ? std::max<std::size_t>(rounded, 1) : 0;
   };
-  const std::size_t test = share(1.0 - train - val), vals = share(val);
-  std::vector<std::string> splits(count, train > 0.0 ? "train" : val > 0.0 ? "val" : "test");
+  std::size_t test = share(1.0 - train - val), vals = share(val);
+  // Something to train on comes first; then a test counts more than what training is watched by.
+  const std::size_t trained = train > kNoShare ? std::min<std::size_t>(count, 1) : 0;
+  while (test + vals + trained > count) --(vals >= test ? vals : test);
+  std::vector<std::string> splits(count, train > kNoShare ? "train"
+                                         : val > kNoShare ? "val"
+                                                          : "test");
   for (std::size_t k = 0; k < count; ++k) {
     if (k < test) {
       splits[order[k]] = "test";

@@ -1,7 +1,11 @@
 #include "antigrasp/judge/pair_tables.h"
 
+#include <array>
 #include <cmath>
 
+#include "antigrasp/core/csv_reader.h"
+#include "antigrasp/core/statistics.h"
+#include "antigrasp/core/word_count.h"
 #include "antigrasp/quality/grasp_table.h"
 
 namespace antigrasp {
@@ -50,7 +54,7 @@ void PairObjects::Add(const LabelledObject& object) {
   csv_.Count(std::ssize(object.solid.faces));
   csv_.Numbers({Volume(object.solid), extent.x(), extent.y(), extent.z(), object.score.scale});
   csv_.Numbers({trial.mass, object.score.value, object.score.ci_low, object.score.ci_high});
-  csv_.Numbers({held.value, held.interval.low, held.interval.high});
+  csv_.NumbersOrGaps({held.value, held.interval.low, held.interval.high});
   csv_.Count(trial.grasps).Count(trial.executions).NumberOrGap(trial.Kept());
   csv_.Count(trial.untrusted);
   csv_.NumberOrGap(trial.group[static_cast<std::size_t>(GraspGroup::kBest)]).EndRow();
@@ -81,6 +85,35 @@ void PairGrasps::Add(const LabelledObject& object) {
     csv_.Number(static_cast<double>(held) / static_cast<double>(executed.draws.size()));
     csv_.Text(ChoiceName(GraspFrame::kMesh)).EndRow();
   }
+}
+
+std::string PairFolderText(const std::filesystem::path& folder) {
+  CsvReader csv(folder / "objects.csv");
+  const std::size_t side = csv.RequiredColumn("side"), split = csv.RequiredColumn("split"),
+                    status = csv.RequiredColumn("status"),
+                    graspability = csv.RequiredColumn("graspability"),
+                    held = csv.RequiredColumn("held");
+  std::array<std::vector<double>, 2> scores, shares;  // before, after
+  WordCount splits, left_out;
+  while (csv.Next()) {
+    const bool after = csv.Field(side) == "after";
+    if (csv.Field(status) != "ok") {
+      if (after) left_out.Add(csv.Field(status));
+      continue;
+    }
+    if (after) splits.Add(csv.Field(split));
+    scores[after ? 1 : 0].push_back(csv.NumberOrGap(graspability));
+    shares[after ? 1 : 0].push_back(100.0 * csv.NumberOrGap(held));
+  }
+  const auto change = [](const std::array<std::vector<double>, 2>& values, int decimals) {
+    return MeanText(MeanWithInterval(values[0]), decimals) + " before, " +
+           MeanText(MeanWithInterval(values[1]), decimals) + " after";
+  };
+  std::string text = folder.string() + ": pairs of objects, " + std::to_string(splits.total()) +
+                     " (" + splits.Text() + ")\n";
+  if (left_out.total() > 0) text += "  left out      " + left_out.Text() + "\n";
+  return text + "  graspability  " + change(scores, 5) + "\n  held, %       " + change(shares, 1) +
+         "\n";
 }
 
 }  // namespace antigrasp

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -46,5 +47,8 @@ class PairGrasps {
  private:
   CsvWriter csv_;
 };
+
+// What a folder of pairs holds, by its objects.csv, for people. InputError for a damaged table.
+std::string PairFolderText(const std::filesystem::path& folder);
 
 }  // namespace antigrasp

@@ -12,6 +12,7 @@
 #include "antigrasp/datasets/object_names.h"
 #include "antigrasp/judge/make_judge.h"
 #include "antigrasp/judge/pair_split.h"
+#include "antigrasp/judge/pair_tables.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/quality/given_grasps.h"
 #include "tests/support/csv_rows.h"
@@ -51,7 +52,11 @@ TEST(SplitOf, SharesAreExactAndAnObjectKeepsItsPlaceInAnyOrder) {
   };
   using Count = std::map<std::string, int>;
   EXPECT_EQ(few(3, 0.8, 0.1), (Count{{"test", 1}, {"train", 1}, {"val", 1}}));
-  EXPECT_EQ(few(1, 0.8, 0.1), (Count{{"test", 1}}));
+  // Of fewer than the splits: to train on first, then to test on.
+  EXPECT_EQ(few(1, 0.8, 0.1), (Count{{"train", 1}}));
+  EXPECT_EQ(few(2, 0.8, 0.1), (Count{{"test", 1}, {"train", 1}}));
+  EXPECT_EQ(few(1, 0.0, 0.5), (Count{{"test", 1}}));
+  EXPECT_EQ(few(4, 0.2, 0.4), (Count{{"test", 2}, {"train", 1}, {"val", 1}}));
   EXPECT_EQ(few(4, 1.0, 0.0), (Count{{"train", 4}}));
   EXPECT_EQ(few(4, 0.0, 0.0), (Count{{"test", 4}}));
   EXPECT_EQ(few(4, 0.9, 0.1), (Count{{"train", 3}, {"val", 1}}));
@@ -104,7 +109,7 @@ class PairDataset : public testing::Test {
 
 TEST_F(PairDataset, HasBothJudgesLabelsOfBothSidesAndSaysWhatIsLeftOut) {
   const PairReport report = Write("set");
-  EXPECT_NE(report.text.find("2 pairs (1 "), std::string::npos) << report.text;
+  EXPECT_NE(report.text.find("2 pairs ("), std::string::npos) << report.text;
   EXPECT_NE(report.text.find("left out: 1 open: "), std::string::npos) << report.text;
   const auto rows = CsvRows(folder_ / "set/objects.csv");
   ASSERT_EQ(rows.size(), 6U);
@@ -190,6 +195,30 @@ TEST_F(PairDataset, HasTheSameBytesForAnyNumberOfThreadsAndIsNotWrittenOver) {
   EXPECT_FALSE(one == shapes::FileContents(folder_ / "one"));
 }
 
+// Of two objects one is to train on and one to test on; one that no grasp reaches keeps its place,
+// without a share held.
+TEST_F(PairDataset, SaysWhichSplitIsEmptyAndWhatHasNoShareHeld) {
+  for (const char* side : {"before", "after"}) std::filesystem::remove(folder_ / side / "c.obj");
+  WriteMesh(folder_ / "after/b.obj", shapes::Box({90.0, 90.0, 90.0}));
+  const PairReport report = Write("set");
+  ASSERT_EQ(report.warnings.size(), 1U);
+  EXPECT_EQ(report.warnings[0], "no pair to validate on (split val) among 2");
+  EXPECT_NE(report.text.find("Without a share held, and in no mean of it: 1 no reachable grasp "
+                             "after.\n"),
+            std::string::npos)
+      << report.text;
+  const auto rows = CsvRows(folder_ / "set/objects.csv");
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[3].at("status"), "ok");
+  EXPECT_EQ(rows[3].at("held") + rows[3].at("held_low") + rows[3].at("held_high"), "");
+  EXPECT_NE(rows[0].at("split"), rows[2].at("split"));
+  const std::string text = PairFolderText(folder_ / "set");
+  EXPECT_TRUE(text.starts_with((folder_ / "set").string() + ": pairs of objects, 2 (1 ")) << text;
+  EXPECT_NE(text.find("  graspability  0.0"), std::string::npos) << text;
+  const std::string sheet = ReadFile(folder_ / "set/datasheet.md");
+  EXPECT_NE(sheet.find("There is no pair to validate on"), std::string::npos) << sheet;
+}
+
 TEST_F(PairDataset, RefusesWhatIsNoSetAndWritesNothing) {
   request_.train = 0.9;
   request_.val = 0.2;
@@ -202,7 +231,12 @@ TEST_F(PairDataset, RefusesWhatIsNoSetAndWritesNothing) {
   request_.before = (folder_ / "before/a.obj").string();
   request_.after = (folder_ / "after").string();
   EXPECT_NE(WhyNot("set").find("expected exactly one object"), std::string::npos) << WhyNot("set");
+  request_.before = (folder_ / "before").string();
+  const std::string searched = "meshes written there would be read by the next call";
+  EXPECT_NE(WhyNot("before/set").find(searched), std::string::npos) << WhyNot("before/set");
+  EXPECT_NE(WhyNot("after").find(searched), std::string::npos) << WhyNot("after");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "set"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "before/set"));
 }
 #endif
 
