@@ -4,12 +4,15 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/info_flags.h"
 #include "antigrasp/app/network_commands.h"
+#include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/file_kind.h"
 #include "antigrasp/datasets/shape_set.h"
+#include "antigrasp/judge/pair_tables.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/mesh_text.h"
 #include "antigrasp/perturb/perturb_summary.h"
 #include "antigrasp/quality/score_table.h"
+#include "antigrasp/trial/trial_folders.h"
 
 namespace antigrasp {
 namespace {
@@ -62,6 +65,12 @@ void Describe(const InfoFlags& flags) {
     DescribeMesh(path);
   } else if (fs::is_regular_file(path / "perturb.csv")) {
     DescribePerturbed(flags);
+  } else if (fs::is_regular_file(path / "means.csv")) {
+    const std::string text = TrialFolderText(flags.path);
+    std::fputs((flags.csv ? ReadFile(path / "means.csv") : text).c_str(), stdout);
+  } else if (fs::is_regular_file(path / "grasps_before.csv")) {
+    flags.RefuseTable();
+    std::fputs(PairFolderText(path).c_str(), stdout);
   } else if (fs::is_regular_file(path) && path.extension() == ".csv") {
     DescribeScores(flags);
   } else {

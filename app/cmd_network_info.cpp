@@ -54,8 +54,8 @@ void DescribeRun(const InfoFlags& flags, const RunFolder& run) {
 void Describe(const InfoFlags& flags) {
   const fs::path path(flags.path);
   constexpr const char* kExpected =
-      "an SDF file, a checkpoint, a mesh, scores.csv, or the folder of a run or of perturbed "
-      "objects";
+      "an SDF file, a checkpoint, a mesh, scores.csv, or the folder of a run, of perturbed "
+      "objects, of trials or of pairs";
   if (!fs::exists(path)) throw InputError("no such file or folder", flags.path, kExpected);
   if (fs::is_directory(path)) {
     DescribeRun(flags, RunAt(flags.path, flags.path, kExpected));

@@ -7,7 +7,8 @@ namespace antigrasp {
 void InfoFlags::RefuseTable() const {
   if (csv) {
     throw InputError("no table of " + path, "--csv",
-                     "the folder of a run or of perturbed objects, a checkpoint or scores.csv");
+                     "the folder of a run, of perturbed objects or of trials, a checkpoint or "
+                     "scores.csv");
   }
 }
 
@@ -16,8 +17,8 @@ void AddInfo(CLI::App* app, void (*describe)(const InfoFlags& flags)) {
   CLI::App* command = app->add_subcommand("info", "Say what a file or folder is and holds");
   command
       ->add_option("FILE", flags->path,
-                   "SDF file, checkpoint, mesh, scores.csv, or the folder of a run or of perturbed "
-                   "objects")
+                   "SDF file, checkpoint, mesh, scores.csv, or the folder of a run, of perturbed "
+                   "objects, of trials or of pairs")
       ->required();
   command->add_flag("--csv", flags->csv,
                     "its means with their intervals as a table (docs/formats.md), no text");

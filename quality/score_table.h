@@ -35,7 +35,8 @@ inline constexpr std::array kScoreExtras = {"seconds",
                                             "extent_z",
                                             "graspability_fresh_draws",
                                             "fresh_ci_low",
-                                            "fresh_ci_high"};
+                                            "fresh_ci_high",
+                                            "judge"};
 
 // A row of scores.csv, of `evaluate` or of a run's stage.
 struct ScoreRow {

@@ -49,7 +49,8 @@ std::vector<LabelledText> ExtrasOf(const ScoreRow& row) {
       {"egad", "EGAD's score"},
       {"baseline", "baseline"},
       {"difference", "difference to the baseline"},
-      {"graspability_fresh_draws", "graspability under fresh draws"}};
+      {"graspability_fresh_draws", "graspability under fresh draws"},
+      {"judge", "score by the judge"}};
   std::vector<LabelledText> numbers;
   for (const auto& [name, value] : row.extras) {
     const auto label = kLabels.find(name);
@@ -70,6 +71,7 @@ ReportObject FromRow(const ScoreRow& row, std::size_t group) {
 }
 
 Report TablesReport(const ReportSettings& settings, std::vector<Table> tables, Report report) {
+  const SavedMetric* first = nullptr;
   for (std::size_t t = 0; t < tables.size(); ++t) {
     report.groups.push_back({"input-" + std::to_string(t), tables[t].path});
     for (const ScoreRow& row : tables[t].rows) {
@@ -77,12 +79,21 @@ Report TablesReport(const ReportSettings& settings, std::vector<Table> tables, R
       report.objects.push_back(FromRow(row, t));
     }
     if (!tables[t].metric) continue;
-    if (!report.metric) {
-      report.metric = tables[t].metric->metric;
-      report.config = tables[t].metric->toml;
-    } else if (*report.config != tables[t].metric->toml) {
+    if (first == nullptr) {
+      first = &*tables[t].metric;
+      report.metric = first->metric;
+      report.config = first->toml;
+      continue;
+    }
+    const SavedMetric &one = *tables[t].metric, &of_first = *first;
+    if (one.Constants() != of_first.Constants()) {
       report.missing.push_back(tables[t].path + " was scored with other constants than " +
                                tables[0].path + ": the numbers do not compare.");
+    } else if (!one.judge.empty() && !of_first.judge.empty() && one.toml != of_first.toml) {
+      report.missing.push_back(tables[t].path + " was judged by " + one.judge + ", " +
+                               tables[0].path + " by " + of_first.judge +
+                               (one.judge == of_first.judge ? ", set otherwise" : "") +
+                               ": what the judges say does not compare.");
     }
   }
   return report;

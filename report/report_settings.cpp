@@ -26,6 +26,7 @@ SavedMetric ReadSavedMetric(const std::string& path) {
   saved.toml = ReadFile(path);
   OptionTable table;
   table.Add("seed", &saved.seed, "");
+  table.Add("judge.name", &saved.judge, {}, "");
   Bind(&table, &saved.metric);
   table.ApplyKnown(saved.toml, path, "metric.");
   return saved;

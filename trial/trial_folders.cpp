@@ -10,6 +10,7 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
 #include "antigrasp/trial/physics_trial.h"
+#include "antigrasp/trial/trial_results.h"
 
 namespace antigrasp {
 namespace {
@@ -91,6 +92,29 @@ TriedFolders ReadTrialFolders(const std::vector<std::string>& folders) {
     }
   }
   return all;
+}
+
+std::string TrialFolderText(const std::string& folder) {
+  const TriedFolders tried = ReadTrialFolders({folder});
+  const TrialJudge& judge = tried.judge;
+  std::string text = folder + ": trials, " + judge.protocol + ", fingertip " + judge.tip + ", " +
+                     judge.engine + "\n";
+  if (const auto unfinished = ReadUnfinished(folder)) {
+    text += "  interrupted after " + std::to_string(unfinished->done) + " of " +
+            std::to_string(unfinished->of) + " trials of an object\n";
+  }
+  for (const TrialMean& row : tried.rows) {
+    text += "  friction " + FormatDouble(row.friction) + ", " + row.masses + " mass, " + row.stage +
+            ": held " + MeanText(row.held, 1) + " % (" + std::to_string(row.held.count) +
+            " objects)";
+    if (row.difference.count > 0) {
+      text += ", before " + MeanText(row.before, 1) + ", difference " +
+              MeanText(row.difference, 1) + " points (" + std::to_string(row.difference.count) +
+              " pairs)";
+    }
+    text += "\n";
+  }
+  return text;
 }
 
 }  // namespace antigrasp

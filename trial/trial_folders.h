@@ -23,4 +23,7 @@ struct TriedFolders {
 // at one kind of mass.
 TriedFolders ReadTrialFolders(const std::vector<std::string>& folders);
 
+// What one of them is and came to, for people; how far it came, where it was interrupted.
+std::string TrialFolderText(const std::string& folder);
+
 }  // namespace antigrasp

@@ -137,6 +137,20 @@ TEST(ReportCli, UsesTheConstantsOfATableOfScoresOrShowsItAlone) {
   ExpectRefused("report " + dir + "s.csv --friction 0.5 --out " + dir + "x.html", "its own");
   ExpectRefused("report " + dir + "s.csv --seed 2 --out " + dir + "x.html", "its own");
 
+  // Two tables of one metric, by two judges.
+  for (const char* judge : {"epsilon", "settled"}) {
+    ASSERT_EQ(Antigrasp("evaluate " + dir + "in --seed 5 --friction 0.6" + kQuick + "--judge " +
+                        judge + " --out " + dir + judge + ".csv")
+                  .code,
+              0);
+  }
+  const json judged = ReportOf(dir + "epsilon.csv " + dir + "settled.csv", folder / "r.html");
+  EXPECT_TRUE(Mentions(judged["missing"], "settled.csv was judged by settled, "));
+  EXPECT_FALSE(Mentions(judged["missing"], "other constants"));
+  EXPECT_NE(judged["config"].get<std::string>().find("[judge]"), std::string::npos);
+  EXPECT_EQ(ReportOf(dir + "epsilon.csv " + dir + "epsilon.csv", folder / "r.html")["missing"],
+            json::array());
+
   fs::remove(folder / "s.csv.metric.toml");
   EXPECT_TRUE(Mentions(ReportOf(dir + "s.csv", folder / "r.html")["missing"], "not known"));
   const std::string table = ReadFile(folder / "s.csv");
