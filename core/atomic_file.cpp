@@ -144,7 +144,8 @@ void RequireApart(const std::vector<fs::path>& written) {
   for (const fs::path& path : written) {
     if (path.empty()) continue;
     std::error_code error;
-    const fs::path real = fs::weakly_canonical(path, error);
+    // Absolute first: of a relative path whose first part is not there yet it would stay relative.
+    const fs::path real = fs::weakly_canonical(fs::absolute(path), error);
     const auto [at, fresh] = seen.emplace(error ? path : real, path);
     if (!fresh) {
       throw InputError("two files would be written as one", path.string(),

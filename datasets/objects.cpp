@@ -182,7 +182,7 @@ void ObjectSource::RequireNotRead(const std::vector<fs::path>& written) const {
 }
 
 void ObjectSource::RequireNotSearched(const fs::path& folder) const {
-  const fs::path written = fs::weakly_canonical(folder);
+  const fs::path written = fs::weakly_canonical(fs::absolute(folder));
   for (const Input& input : inputs_) {
     if (!input.is_folder) continue;
     const fs::path searched = fs::canonical(input.path);

@@ -32,8 +32,8 @@ std::string NumberText(double value);
 struct SavedMetric {
   std::uint64_t seed = 1;
   MetricOptions metric;
-  std::string toml;   // all of it
-  std::string judge;  // who else scored; "" = nobody
+  std::string toml;        // all of it
+  std::string judge = {};  // who else scored; "" = nobody
 
   std::string Constants() const { return toml.substr(0, toml.find("\n[judge]\n")); }
 };

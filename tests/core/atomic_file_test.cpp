@@ -187,6 +187,7 @@ TEST(RequireApart, RefusesTwoWaysToNameOneFile) {
   RequireApart({folder / "a", folder / "b", "", ""});
   EXPECT_THROW(RequireApart({folder / "a", folder / "b", folder / "a"}), InputError);
   EXPECT_THROW(RequireApart({folder / "a", folder / "sub/../a"}), InputError);
+  EXPECT_THROW(RequireApart({"not-there-yet", fs::current_path() / "not-there-yet"}), InputError);
 }
 
 TEST(MakeFolder, RefusesAFileInTheWay) {

@@ -113,6 +113,8 @@ TEST(ObjectSource, NamesTheFolderWhoseMeshesTheNextCallWouldRead) {
   for (const char* inside : {"in", "in/", "in/new/after", "out/../in/x"}) {
     EXPECT_THROW(source.RequireNotSearched(folder / inside), InputError) << inside;
   }
+  const std::filesystem::path inside = std::filesystem::relative(folder / "in");
+  EXPECT_THROW(source.RequireNotSearched("not-there-yet" / (".." / inside / "x")), InputError);
 }
 
 TEST(ObjectSource, FilesThatKnowTheirUnitAreTurnedIntoThatOfTheCall) {
