@@ -1,6 +1,5 @@
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -41,10 +40,7 @@ void Compare(const CompareFlags& flags) {
   ComparedSet reference = Read(flags.reference, "reference", 2, flags);
   ComparedSet training;
   if (!flags.training.empty()) training = Read(flags.training, "training set", 1, flags);
-  const std::size_t count = std::min(
-      {static_cast<std::size_t>(flags.count), samples.meshes.size(), reference.meshes.size()});
-  KeepAtRandom(count, flags.options.seed, 0, &samples);
-  KeepAtRandom(count, flags.options.seed, 1, &reference);
+  const std::size_t count = KeepAsMany(flags.count, flags.options.seed, &samples, &reference);
   ConsoleObserver console;
   const SurfaceComparison found =
       CompareSurfaces(samples.meshes, reference.meshes, training.meshes, flags.options,
@@ -74,6 +70,9 @@ void AddCompareCommand(CLI::App* app) {
       ->capture_default_str();
   command->add_option("--points", flags->options.points, "points on a shape's surface")
       ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command->add_option("--normals", flags->options.normals, "weight of normals; 0: compare places")
+      ->check(NumberIn(0.0, 100.0))
       ->capture_default_str();
   command->add_option("--seed", flags->options.seed, "random seed")->capture_default_str();
   AddThreads(command, &flags->options.threads, "; the numbers do not depend on it");

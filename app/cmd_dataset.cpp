@@ -31,9 +31,7 @@ struct ImportFlags {
 void Make(const MakeFlags& flags) {
   ConsoleObserver console;
   WritePriorSet(flags.out, flags.options, console.Phase("making " + flags.options.kind));
-  std::printf("%s: %d %s, %d^3, seed %llu\n", flags.out.c_str(), flags.options.count,
-              flags.options.kind.c_str(), flags.options.resolution,
-              static_cast<unsigned long long>(flags.options.seed));
+  std::printf("%s: %s\n", flags.out.c_str(), PriorSetText(flags.options).c_str());
 }
 
 void Import(const ImportFlags& flags) {
@@ -117,6 +115,9 @@ void AddDatasetCommand(CLI::App* app) {
       ->capture_default_str();
   make->add_option("--seed", make_flags->options.seed, "random seed")->capture_default_str();
   AddResolution(make, &make_flags->options.resolution);
+  make->add_option("--grafts", make_flags->options.grafts, "of a shape's two, those left on it")
+      ->check(CLI::Range(0, 2))
+      ->capture_default_str();
   AddThreads(make, &make_flags->options.threads);
   make->add_option("--out", make_flags->out, "SDF file to write (HDF5)")->required();
   make->callback([make_flags] { Make(*make_flags); });

@@ -7,8 +7,10 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "antigrasp/datasets/chamfer.h"
+#include "antigrasp/datasets/surface_comparison.h"
 #include "bench/bench_objects.h"
 #include "bench/compare.h"
 #include "bench/timing.h"
@@ -29,7 +31,7 @@ Points PointsOf(const PointSet& set) {
   Points points;
   for (const PointSet::Block& block : set.blocks()) {
     for (std::size_t i = 0; i < block.used; ++i) {
-      points.emplace_back(block.x[i], block.y[i], block.z[i]);
+      points.emplace_back(block.at[0][i], block.at[1][i], block.at[2][i]);
     }
   }
   return points;
@@ -53,11 +55,15 @@ double PlainMean(const Points& from, const Points& to) {
 
 // A shape as the three ways want it; trees are built beforehand.
 struct Shape {
-  explicit Shape(const PointSet& points)
-      : set(points), plain(PointsOf(points)), tree(plain.begin(), plain.end()) {
+  Shape(const PointSet& points, OrientedPointSet with_normals)
+      : set(points),
+        oriented(std::move(with_normals)),
+        plain(PointsOf(points)),
+        tree(plain.begin(), plain.end()) {
     tree.build();
   }
   PointSet set;
+  OrientedPointSet oriented;
   Points plain;
   Tree tree;
 };
@@ -77,7 +83,10 @@ void CompareSimilarity() {
   const std::vector<TriangleMesh> meshes = RemeshedCylinders(2 * kShapes);
   std::vector<std::unique_ptr<Shape>> shapes;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    shapes.push_back(std::make_unique<Shape>(SurfacePoints(meshes[i], kPoints, 1, 0, i)));
+    const double length = NormalLength(1.0, Bounds(meshes[i]).Extent().norm());
+    shapes.push_back(
+        std::make_unique<Shape>(SurfacePoints(meshes[i], kPoints, 1, 0, i),
+                                OrientedSurfacePoints(meshes[i], kPoints, 1, 0, i, length)));
   }
   static double sink = 0.0;
   const auto pairs = [&shapes](int count, const auto& distance) {
@@ -90,6 +99,9 @@ void CompareSimilarity() {
     };
   };
   const auto ours = [](const Shape& a, const Shape& b) { return Chamfer(a.set, b.set); };
+  const auto with_normals = [](const Shape& a, const Shape& b) {
+    return Chamfer(a.oriented, b.oriented);
+  };
   double apart = 0.0;
   for (std::size_t i = 0; i < kPeerShapes; ++i) {
     const Shape &a = *shapes[i], &b = *shapes[kShapes + i];
@@ -98,13 +110,16 @@ void CompareSimilarity() {
   std::printf("chamfer: at most %.1e from the kd-tree's, relative\n", apart);
   const std::vector<double> seconds =
       MedianSeconds({{"blocks", pairs(kShapes, ours), kShapes * kShapes},
+                     {"normals", pairs(kShapes, with_normals), kShapes * kShapes},
                      {"tree", pairs(kPeerShapes, Tree2), kPeerShapes * kPeerShapes},
                      {"plain", pairs(kPeerShapes, Plain2), kPeerShapes * kPeerShapes}},
                     kRounds);
   PrintTime("chamfer_1024_points", seconds[0]);
-  PrintTime("chamfer_1024_points_cgal_kd_tree", seconds[1]);
-  PrintRatio("chamfer_blocks_vs_cgal_kd_tree", seconds[1] / seconds[0]);
-  PrintRatio("chamfer_blocks_vs_all_points", seconds[2] / seconds[0]);
+  PrintTime("chamfer_1024_points_with_normals", seconds[1]);
+  PrintTime("chamfer_1024_points_cgal_kd_tree", seconds[2]);
+  PrintRatio("chamfer_without_normals_vs_with", seconds[1] / seconds[0]);
+  PrintRatio("chamfer_blocks_vs_cgal_kd_tree", seconds[2] / seconds[0]);
+  PrintRatio("chamfer_blocks_vs_all_points", seconds[3] / seconds[0]);
 }
 
 }  // namespace antigrasp::bench

@@ -10,13 +10,14 @@
 namespace antigrasp {
 namespace {
 
-double MeanDistance(const PointSet& from, const PointSet& to) {
+template <int D>
+double MeanDistance(const PointBlocks<D>& from, const PointBlocks<D>& to) {
   thread_local std::vector<float> squared;
   NearestSquared(from, to, &squared);
   double sum = 0.0;
   for (std::size_t b = 0; b < from.blocks().size(); ++b) {
     for (std::size_t lane = 0; lane < from.blocks()[b].used; ++lane) {
-      sum += std::sqrt(static_cast<double>(squared[b * PointSet::kBlock + lane]));
+      sum += std::sqrt(static_cast<double>(squared[b * PointBlocks<D>::kBlock + lane]));
     }
   }
   return sum / static_cast<double>(from.size());
@@ -24,11 +25,16 @@ double MeanDistance(const PointSet& from, const PointSet& to) {
 
 }  // namespace
 
-double Chamfer(const PointSet& a, const PointSet& b) {
+template <int D>
+double Chamfer(const PointBlocks<D>& a, const PointBlocks<D>& b) {
   return 0.5 * (MeanDistance(a, b) + MeanDistance(b, a));
 }
 
-DistanceMatrix ChamferMatrix(const std::vector<PointSet>& shapes, int threads,
+template double Chamfer(const PointSet&, const PointSet&);
+template double Chamfer(const OrientedPointSet&, const OrientedPointSet&);
+
+template <int D>
+DistanceMatrix ChamferMatrix(const std::vector<PointBlocks<D>>& shapes, int threads,
                              const ProgressFn& progress) {
   const auto n = static_cast<std::int64_t>(shapes.size());
   DistanceMatrix matrix = DistanceMatrix::Zero(n, n);
@@ -50,6 +56,9 @@ DistanceMatrix ChamferMatrix(const std::vector<PointSet>& shapes, int threads,
   }
   return matrix;
 }
+
+template DistanceMatrix ChamferMatrix(const std::vector<PointSet>&, int, const ProgressFn&);
+template DistanceMatrix ChamferMatrix(const std::vector<OrientedPointSet>&, int, const ProgressFn&);
 
 std::vector<double> NearestChamfer(const std::vector<PointSet>& shapes,
                                    const std::vector<PointSet>& others, int threads,

@@ -18,10 +18,13 @@ using DistanceMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eige
 // by a small step is that step's normal part away. Exact, symmetric, 0 for equal sets. Two
 // samplings of one surface are not 0 apart but about 0.5 sqrt(area / points). The nearest points
 // come from blocks with boxes; 1,024 points against 1,024 take 0.15 to 0.2 ms.
-double Chamfer(const PointSet& a, const PointSet& b);
+// D: 3, or 6 with normals (OrientedPointSet), where the distances are those of six coordinates.
+template <int D>
+double Chamfer(const PointBlocks<D>& a, const PointBlocks<D>& b);
 
 // All pairs of the shapes: symmetric, zeros on the diagonal, the same bytes at any thread count.
-DistanceMatrix ChamferMatrix(const std::vector<PointSet>& shapes, int threads,
+template <int D>
+DistanceMatrix ChamferMatrix(const std::vector<PointBlocks<D>>& shapes, int threads,
                              const ProgressFn& progress = nullptr);
 
 // For each shape the distance to the nearest one of `others` (at least one).

@@ -56,4 +56,12 @@ void KeepAtRandom(std::size_t count, std::uint64_t seed, std::uint64_t number, C
   set->streams = std::move(streams);
 }
 
+std::size_t KeepAsMany(int most, std::uint64_t seed, ComparedSet* samples, ComparedSet* reference) {
+  const std::size_t count =
+      std::min({static_cast<std::size_t>(most), samples->meshes.size(), reference->meshes.size()});
+  KeepAtRandom(count, seed, 0, samples);
+  KeepAtRandom(count, seed, 1, reference);
+  return count;
+}
+
 }  // namespace antigrasp

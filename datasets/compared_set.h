@@ -32,4 +32,7 @@ void RequireShapes(const ComparedSet& set, std::size_t least);
 // tells the sides of a comparison apart.
 void KeepAtRandom(std::size_t count, std::uint64_t seed, std::uint64_t number, ComparedSet* set);
 
+// The same of both sides, as many as both have and at most `most`; returns their number.
+std::size_t KeepAsMany(int most, std::uint64_t seed, ComparedSet* samples, ComparedSet* reference);
+
 }  // namespace antigrasp

@@ -49,7 +49,15 @@ ComparisonTable::ComparisonTable(const SurfaceComparison& found, std::size_t cou
       {"diversity", "diversity, by the reference's", spread.diversity, kNone},
       {"vendi", "different shapes (Vendi score)", a.vendi, b.vendi},
       {"roughness", "roughness (dihedral), degrees", a.roughness, b.roughness},
+      {"flat_share", "edges below 2 degrees, % of length", a.flat, b.flat, 100.0},
+      {"crease_share", "edges above 30 degrees, %", a.crease, b.crease, 100.0},
+      {"dihedral_distance", "edge angles apart, degrees", found.dihedral_distance, kNone},
   };
+  if (found.normals) {
+    rows_.push_back(
+        {"coverage_normals", "COV with normals, %", found.normals->coverage, kNone, 100.0});
+    rows_.push_back({"nna_normals", "1-NNA with normals, %", found.normals->nna, kNone, 100.0});
+  }
   if (!found.memorisation) return;
   const Memorisation& m = *found.memorisation;
   rows_.push_back({"nearest_training", "to the nearest training shape", m.samples, m.reference});

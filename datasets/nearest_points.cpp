@@ -21,21 +21,23 @@ struct Lanes {
 
 // Lowers `best` to the squared distances from the lanes of `query` to the points of `block`, and
 // returns the largest of them.
-template <int Bytes>
-AG_INLINE float LookAt(const PointSet::Block& query, const PointSet::Block& block, float* best) {
+template <int Bytes, int D>
+AG_INLINE float LookAt(const typename PointBlocks<D>::Block& query,
+                       const typename PointBlocks<D>::Block& block, float* best) {
   using Register = typename Lanes<Bytes>::Register;
-  constexpr std::size_t kCount = Lanes<Bytes>::kCount;
+  constexpr std::size_t kCount = Lanes<Bytes>::kCount, kSize = PointBlocks<D>::kSize;
   static_assert(sizeof(Register) == Bytes);
-  Register qx[kCount], qy[kCount], qz[kCount], nearest[kCount];
-  std::memcpy(qx, query.x.data(), sizeof qx);
-  std::memcpy(qy, query.y.data(), sizeof qy);
-  std::memcpy(qz, query.z.data(), sizeof qz);
+  Register at[kSize][kCount], nearest[kCount];
+  std::memcpy(at, query.at.data(), sizeof at);
   std::memcpy(nearest, best, sizeof nearest);
   for (std::size_t j = 0; j < kBlock; ++j) {
-    const float x = block.x[j], y = block.y[j], z = block.z[j];
     for (std::size_t r = 0; r < kCount; ++r) {
-      const Register dx = qx[r] - x, dy = qy[r] - y, dz = qz[r] - z;
-      const Register d = (dx * dx + dy * dy) + dz * dz;
+      Register d = at[0][r] - block.at[0][j];
+      d = d * d;
+      for (std::size_t k = 1; k < kSize; ++k) {
+        const Register step = at[k][r] - block.at[k][j];
+        d = d + step * step;
+      }
       nearest[r] = d < nearest[r] ? d : nearest[r];
     }
   }
@@ -54,24 +56,24 @@ AG_INLINE float LookAt(const PointSet::Block& query, const PointSet::Block& bloc
 // them first in `first`. The same operations in the same order as for points: rounding keeps order,
 // so no computed distance of two points is below the computed one of their boxes, and leaving
 // blocks out changes no bit.
-template <int Bytes>
-AG_INLINE std::size_t BoxDistances(const PointSet::Boxes& from, std::size_t b,
-                                   const PointSet::Boxes& to, float* out) {
+template <int Bytes, int D>
+AG_INLINE std::size_t BoxDistances(const typename PointBlocks<D>::Boxes& from, std::size_t b,
+                                   const typename PointBlocks<D>::Boxes& to, float* out) {
   using Register = typename Lanes<Bytes>::Register;
-  constexpr std::size_t kWidth = Lanes<Bytes>::kWidth;
+  constexpr std::size_t kWidth = Lanes<Bytes>::kWidth, kSize = PointBlocks<D>::kSize;
   const std::size_t padded = to.low[0].size();
   Register smallest = std::numeric_limits<float>::infinity() - Register{};
   for (std::size_t i = 0; i < padded; i += kWidth) {
-    Register gap[3];
-    for (std::size_t k = 0; k < 3; ++k) {
+    Register d{};
+    for (std::size_t k = 0; k < kSize; ++k) {
       Register low, high;
       std::memcpy(&low, &to.low[k][i], sizeof low);
       std::memcpy(&high, &to.high[k][i], sizeof high);
       const Register above = low - from.high[k][b], below = from.low[k][b] - high;
       const Register wider = above > below ? above : below;
-      gap[k] = wider > Register{} ? wider : Register{};
+      const Register gap = wider > Register{} ? wider : Register{};
+      d = d + gap * gap;  // of the first 0 + gap gap, which is gap gap
     }
-    const Register d = (gap[0] * gap[0] + gap[1] * gap[1]) + gap[2] * gap[2];
     smallest = d < smallest ? d : smallest;
     std::memcpy(out + i, &d, sizeof d);
   }
@@ -82,50 +84,59 @@ AG_INLINE std::size_t BoxDistances(const PointSet::Boxes& from, std::size_t b,
   return first;
 }
 
-template <int Bytes>
-AG_INLINE void Nearest(const PointSet& from, const PointSet& to, float* boxes, float* squared) {
+template <int Bytes, int D>
+AG_INLINE void Nearest(const PointBlocks<D>& from, const PointBlocks<D>& to, float* boxes,
+                       float* squared) {
   const std::size_t count = to.blocks().size();
   for (std::size_t b = 0; b < from.blocks().size(); ++b) {
-    const PointSet::Block& query = from.blocks()[b];
+    const typename PointBlocks<D>::Block& query = from.blocks()[b];
     float* best = squared + b * kBlock;
     std::fill(best, best + kBlock, std::numeric_limits<float>::infinity());
-    const std::size_t first = BoxDistances<Bytes>(from.boxes(), b, to.boxes(), boxes);
+    const std::size_t first = BoxDistances<Bytes, D>(from.boxes(), b, to.boxes(), boxes);
     // The nearest box first: it leaves little to do for the others.
-    float worst = LookAt<Bytes>(query, to.blocks()[first], best);
+    float worst = LookAt<Bytes, D>(query, to.blocks()[first], best);
     for (std::size_t i = 0; i < count; ++i) {
-      if (boxes[i] < worst && i != first) worst = LookAt<Bytes>(query, to.blocks()[i], best);
+      if (boxes[i] < worst && i != first) worst = LookAt<Bytes, D>(query, to.blocks()[i], best);
     }
   }
 }
 
-using NearestFn = void (*)(const PointSet&, const PointSet&, float*, float*);
-
-void NearestBaseline(const PointSet& from, const PointSet& to, float* boxes, float* squared) {
-  Nearest<16>(from, to, boxes, squared);
+template <int D>
+void NearestBaseline(const PointBlocks<D>& from, const PointBlocks<D>& to, float* boxes,
+                     float* squared) {
+  Nearest<16, D>(from, to, boxes, squared);
 }
 
 #if defined(__x86_64__)
-__attribute__((target("avx2"))) void NearestAvx2(const PointSet& from, const PointSet& to,
-                                                 float* boxes, float* squared) {
-  Nearest<32>(from, to, boxes, squared);
+template <int D>
+__attribute__((target("avx2"))) void NearestAvx2(const PointBlocks<D>& from,
+                                                 const PointBlocks<D>& to, float* boxes,
+                                                 float* squared) {
+  Nearest<32, D>(from, to, boxes, squared);
 }
 #endif
 
-NearestFn Choose() {
+template <int D>
+auto Choose() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return NearestAvx2;
+  if (__builtin_cpu_supports("avx2")) return NearestAvx2<D>;
 #endif
-  return NearestBaseline;
+  return NearestBaseline<D>;
 }
 
 }  // namespace
 
-void NearestSquared(const PointSet& from, const PointSet& to, std::vector<float>* squared) {
-  static const NearestFn nearest = Choose();
+template <int D>
+void NearestSquared(const PointBlocks<D>& from, const PointBlocks<D>& to,
+                    std::vector<float>* squared) {
+  static const auto nearest = Choose<D>();
   thread_local std::vector<float> boxes;
   boxes.resize(to.boxes().low[0].size());
   squared->resize(from.blocks().size() * kBlock);
   nearest(from, to, boxes.data(), squared->data());
 }
+
+template void NearestSquared(const PointSet&, const PointSet&, std::vector<float>*);
+template void NearestSquared(const OrientedPointSet&, const OrientedPointSet&, std::vector<float>*);
 
 }  // namespace antigrasp

@@ -8,14 +8,28 @@
 #include "antigrasp/mesh/surface_sampler.h"
 
 namespace antigrasp {
+namespace {
 
-using Eigen::Vector3f;
+// Takes `point_of(sample)` of every sample.
+template <int D, typename PointOf>
+PointBlocks<D> Drawn(const TriangleMesh& mesh, int count, std::uint64_t seed, std::uint64_t set,
+                     std::uint64_t shape, const PointOf& point_of) {
+  AG_CHECK(count > 0, "at least one point a shape");
+  const SurfaceSampler surface(mesh);
+  RngStream rng(seed, "surface points", set, shape);
+  std::vector<Eigen::Matrix<float, D, 1>> points;
+  for (int i = 0; i < count; ++i) points.push_back(point_of(surface.Draw(&rng)));
+  return PointBlocks<D>(std::move(points));
+}
 
-PointSet::PointSet(std::vector<Vector3f> points) : size_(points.size()) {
+}  // namespace
+
+template <int D>
+PointBlocks<D>::PointBlocks(std::vector<Point> points) : size_(points.size()) {
   AG_CHECK(!points.empty(), "a point set has at least one point");
-  for (const Vector3f& point : points) AG_CHECK(point.allFinite(), "finite points");
+  for (const Point& point : points) AG_CHECK(point.allFinite(), "finite points");
   Split(points.data(), points.size());
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < kSize; ++k) {
     const std::size_t padded = (blocks_.size() + kBlock - 1) / kBlock * kBlock;
     boxes_.low[k].resize(padded, std::numeric_limits<float>::infinity());
     boxes_.high[k].resize(padded, std::numeric_limits<float>::infinity());
@@ -23,12 +37,13 @@ PointSet::PointSet(std::vector<Vector3f> points) : size_(points.size()) {
 }
 
 // Halves the blocks across the longest side until one is left; all but the last one are full.
-void PointSet::Split(Vector3f* points, std::size_t count) {
+template <int D>
+void PointBlocks<D>::Split(Point* points, std::size_t count) {
   if (count <= kBlock) {
     AddBlock(points, count);
     return;
   }
-  Vector3f low = points[0], high = points[0];
+  Point low = points[0], high = points[0];
   for (std::size_t i = 1; i < count; ++i) {
     low = low.cwiseMin(points[i]);
     high = high.cwiseMax(points[i]);
@@ -37,40 +52,50 @@ void PointSet::Split(Vector3f* points, std::size_t count) {
   (high - low).maxCoeff(&axis);
   const std::size_t half = (count + kBlock - 1) / kBlock / 2 * kBlock;
   std::nth_element(points, points + half, points + count,
-                   [axis](const Vector3f& a, const Vector3f& b) { return a[axis] < b[axis]; });
+                   [axis](const Point& a, const Point& b) { return a[axis] < b[axis]; });
   Split(points, half);
   Split(points + half, count - half);
 }
 
-void PointSet::AddBlock(const Vector3f* points, std::size_t count) {
+template <int D>
+void PointBlocks<D>::AddBlock(const Point* points, std::size_t count) {
   Block block;
   block.used = count;
-  Vector3f low = points[0], high = points[0];
+  Point low = points[0], high = points[0];
   for (std::size_t lane = 0; lane < kBlock; ++lane) {
-    const Vector3f& point = points[std::min(lane, count - 1)];
-    block.x[lane] = point.x();
-    block.y[lane] = point.y();
-    block.z[lane] = point.z();
+    const Point& point = points[std::min(lane, count - 1)];
+    for (std::size_t k = 0; k < kSize; ++k) {
+      block.at[k][lane] = point[static_cast<Eigen::Index>(k)];
+    }
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
   blocks_.push_back(block);
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < kSize; ++k) {
     boxes_.low[k].push_back(low[static_cast<Eigen::Index>(k)]);
     boxes_.high[k].push_back(high[static_cast<Eigen::Index>(k)]);
   }
 }
 
+template class PointBlocks<3>;
+template class PointBlocks<6>;
+
 PointSet SurfacePoints(const TriangleMesh& mesh, int count, std::uint64_t seed, std::uint64_t set,
                        std::uint64_t shape, const Eigen::Vector3d& origin) {
-  AG_CHECK(count > 0, "at least one point a shape");
-  const SurfaceSampler surface(mesh);
-  RngStream rng(seed, "surface points", set, shape);
-  std::vector<Vector3f> points;
-  for (int i = 0; i < count; ++i) {
-    points.push_back((surface.Draw(&rng).point - origin).cast<float>());
-  }
-  return PointSet(std::move(points));
+  return Drawn<3>(mesh, count, seed, set, shape,
+                  [&](const SurfaceSampler::Sample& sample) -> PointSet::Point {
+                    return (sample.point - origin).cast<float>();
+                  });
+}
+
+OrientedPointSet OrientedSurfacePoints(const TriangleMesh& mesh, int count, std::uint64_t seed,
+                                       std::uint64_t set, std::uint64_t shape, double length,
+                                       const Eigen::Vector3d& origin) {
+  return Drawn<6>(mesh, count, seed, set, shape, [&](const SurfaceSampler::Sample& sample) {
+    OrientedPointSet::Point point;
+    point << (sample.point - origin).cast<float>(), (length * sample.normal).cast<float>();
+    return point;
+  });
 }
 
 }  // namespace antigrasp

@@ -36,6 +36,8 @@ Vector3d DrawSizes(RngStream& rng, const Vector3d& low, const Vector3d& high) {
   return {x, y, rng.Uniform(low.z(), high.z())};
 }
 
+constexpr int kGrafts = 2;
+
 // Full sizes of the parts in the design cube, and how a graft sits on the large part.
 struct GraftRecipe {
   Primitive::Shape shape;
@@ -87,10 +89,11 @@ bool SticksOut(const Primitive& graft, const Primitive& core, double overhang) {
 
 using Field = std::function<double(const Vector3d&)>;  // in the design cube, centred
 
-// An empty field when the draw does not fit the design cube or hides a graft.
-Field DrawGrafted(const GraftRecipe& recipe, RngStream& rng) {
+// An empty field when the draw does not fit the design cube or hides a graft. Only `grafts` of the
+// grafts stay, after all else is done.
+Field DrawGrafted(const GraftRecipe& recipe, int grafts, RngStream& rng) {
   std::vector<Primitive> parts = {DrawCore(recipe, rng)};
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < kGrafts; ++i) {
     parts.push_back(DrawGraft(recipe, parts[0], rng));
     if (!SticksOut(parts.back(), parts[0], recipe.least_overhang)) return {};
   }
@@ -101,6 +104,7 @@ Field DrawGrafted(const GraftRecipe& recipe, RngStream& rng) {
   }
   if (box.Extent().maxCoeff() > 1.0) return {};
   for (Primitive& part : parts) part.center -= box.Center();
+  parts.resize(1 + static_cast<std::size_t>(grafts));
   const auto solid = std::make_shared<GraftedSolid>(std::move(parts));
   return [solid](const Vector3d& p) { return solid->SignedDistance(p); };
 }
@@ -121,12 +125,16 @@ Field DrawBottle(RngStream& rng) {
 // The one list of kinds.
 struct Kind {
   const char* name;
-  Field (*draw)(RngStream& rng);  // nothing when this draw does not fit
+  Field (*draw)(int grafts, RngStream& rng);  // nothing when this draw does not fit
+  int grafts;                                 // of every shape
 };
 constexpr std::array<Kind, 3> kKinds = {{
-    {"cylinders", [](RngStream& rng) { return DrawGrafted(CylinderRecipe(), rng); }},
-    {"prisms", [](RngStream& rng) { return DrawGrafted(PrismRecipe(), rng); }},
-    {"bottles", DrawBottle},
+    {"cylinders",
+     [](int grafts, RngStream& rng) { return DrawGrafted(CylinderRecipe(), grafts, rng); },
+     kGrafts},
+    {"prisms", [](int grafts, RngStream& rng) { return DrawGrafted(PrismRecipe(), grafts, rng); },
+     kGrafts},
+    {"bottles", [](int, RngStream& rng) { return DrawBottle(rng); }, 0},
 }};
 
 const Kind& KindOf(const std::string& name) {
@@ -158,7 +166,7 @@ SdfGrid MakeShape(const PriorSetOptions& options, std::int64_t index) {
   const auto draw = KindOf(options.kind).draw;
   RngStream rng(options.seed, "prior-" + options.kind, static_cast<std::uint64_t>(index));
   for (int attempt = 0; attempt < kMostDraws; ++attempt) {
-    const Field field = draw(rng);
+    const Field field = draw(options.grafts, rng);
     if (!field) continue;
     SdfGrid grid = Sampled(field, options.resolution);
     if (Remesh(grid).ok()) return grid;
@@ -167,7 +175,12 @@ SdfGrid MakeShape(const PriorSetOptions& options, std::int64_t index) {
 }
 
 void CheckOptions(const PriorSetOptions& options) {
-  KindOf(options.kind);
+  const Kind& kind = KindOf(options.kind);
+  if (options.grafts < 0 || options.grafts > kGrafts ||
+      (options.grafts < kGrafts && kind.grafts == 0)) {
+    throw InputError("grafts = " + std::to_string(options.grafts), "prior set " + options.kind,
+                     "0, 1 or 2 of cylinders or prisms; bottles have none");
+  }
   if (options.count < 1) {
     throw InputError("count = " + std::to_string(options.count), "prior set", "at least 1");
   }
@@ -182,7 +195,8 @@ ShapeSet About(const PriorSetOptions& options) {
   CheckOptions(options);
   return {options.kind, options.seed,
           "prior set " + options.kind + ", seed " + std::to_string(options.seed) + ", count " +
-              std::to_string(options.count)};
+              std::to_string(options.count) +
+              (options.grafts < kGrafts ? ", grafts " + std::to_string(options.grafts) : "")};
 }
 
 template <typename Take>  // take(name, grid)
@@ -211,6 +225,11 @@ ShapeSet MakePriorSet(const PriorSetOptions& options, const ProgressFn& progress
       },
       progress);
   return set;
+}
+
+std::string PriorSetText(const PriorSetOptions& options) {
+  return std::to_string(options.count) + " " + options.kind + ", " +
+         std::to_string(options.resolution) + "^3, seed " + std::to_string(options.seed);
 }
 
 void WritePriorSet(const std::filesystem::path& path, const PriorSetOptions& options,

@@ -1,5 +1,7 @@
 #include "antigrasp/datasets/surface_comparison.h"
 
+#include <cmath>
+
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/statistics.h"
 #include "antigrasp/datasets/roughness.h"
@@ -23,17 +25,43 @@ Eigen::Vector3d CommonPlace(std::initializer_list<const std::vector<TriangleMesh
   return RoundPlace(corners);
 }
 
+// Adds draw(mesh, stream) of every mesh.
+template <int D, typename Draw>
+void AddDrawn(const std::vector<TriangleMesh>& meshes, const std::vector<std::uint64_t>& streams,
+              int threads, const Draw& draw, std::vector<PointBlocks<D>>* points) {
+  AG_CHECK(streams.empty() || streams.size() == meshes.size(), "a stream each, or none");
+  std::vector<std::optional<PointBlocks<D>>> slots(meshes.size());
+  ParallelFor(static_cast<std::int64_t>(meshes.size()), threads, [&](std::int64_t i) {
+    const auto slot = static_cast<std::size_t>(i);
+    slots[slot] = draw(meshes[slot], streams.empty() ? slot : streams[slot]);
+  });
+  for (auto& slot : slots) points->push_back(std::move(*slot));
+}
+
 void AddPoints(const std::vector<TriangleMesh>& meshes, const std::vector<std::uint64_t>& streams,
                Stream set, const SurfaceComparisonOptions& options, const Eigen::Vector3d& place,
                std::vector<PointSet>* points) {
-  AG_CHECK(streams.empty() || streams.size() == meshes.size(), "a stream each, or none");
-  std::vector<std::optional<PointSet>> slots(meshes.size());
-  ParallelFor(static_cast<std::int64_t>(meshes.size()), options.threads, [&](std::int64_t i) {
-    const auto slot = static_cast<std::size_t>(i);
-    slots[slot] = SurfacePoints(meshes[slot], options.points, options.seed, set,
-                                streams.empty() ? slot : streams[slot], place);
-  });
-  for (auto& slot : slots) points->push_back(std::move(*slot));
+  const auto draw = [&](const TriangleMesh& mesh, std::uint64_t stream) {
+    return SurfacePoints(mesh, options.points, options.seed, set, stream, place);
+  };
+  AddDrawn(meshes, streams, options.threads, draw, points);
+}
+
+// The same points with their normals, `length` long.
+void AddOriented(const std::vector<TriangleMesh>& meshes, const std::vector<std::uint64_t>& streams,
+                 Stream set, const SurfaceComparisonOptions& options, double length,
+                 const Eigen::Vector3d& place, std::vector<OrientedPointSet>* points) {
+  const auto draw = [&](const TriangleMesh& mesh, std::uint64_t stream) {
+    return OrientedSurfacePoints(mesh, options.points, options.seed, set, stream, length, place);
+  };
+  AddDrawn(meshes, streams, options.threads, draw, points);
+}
+
+// `all`: distances of the samples, then of the reference.
+SetComparison CompareHalves(const DistanceMatrix& all) {
+  const Eigen::Index n = all.rows() / 2;
+  return CompareSets(all.topLeftCorner(n, n), all.topRightCorner(n, n),
+                     all.bottomRightCorner(n, n));
 }
 
 template <typename Measure>
@@ -45,7 +73,17 @@ double MeanOver(const std::vector<TriangleMesh>& meshes, int threads, const Meas
   return MeanWithInterval(values).mean;
 }
 
-// All but the Vendi score, which needs the distances.
+DihedralAngles AnglesOf(const std::vector<TriangleMesh>& meshes, int threads) {
+  std::vector<DihedralAngles> angles(meshes.size());
+  ParallelFor(static_cast<std::int64_t>(meshes.size()), threads, [&](std::int64_t i) {
+    const auto slot = static_cast<std::size_t>(i);
+    angles[slot] = DihedralAnglesOf(meshes[slot]);
+  });
+  return MeanOf(angles);
+}
+
+// All but the shares of the angles, which the sets' distance needs too, and the Vendi score, which
+// needs the distances.
 SetLook LookOf(const std::vector<TriangleMesh>& meshes, const double* floors, int threads) {
   SetLook look;
   look.size = MeanOver(meshes, threads,
@@ -53,6 +91,17 @@ SetLook LookOf(const std::vector<TriangleMesh>& meshes, const double* floors, in
   look.roughness = MeanOver(meshes, threads, MeanDihedralAngle);
   look.floor = MeanWithInterval({floors, floors + meshes.size()}).mean;
   return look;
+}
+
+void CompareAngles(const std::vector<TriangleMesh>& samples,
+                   const std::vector<TriangleMesh>& reference, int threads,
+                   SurfaceComparison* result) {
+  const DihedralAngles a = AnglesOf(samples, threads), b = AnglesOf(reference, threads);
+  result->samples.flat = a.flat;
+  result->samples.crease = a.crease;
+  result->reference.flat = b.flat;
+  result->reference.crease = b.crease;
+  result->dihedral_distance = DihedralDistance(a, b);
 }
 
 // Each shape's points against another sampling of it.
@@ -88,6 +137,10 @@ Memorisation MemorisationOf(const std::vector<PointSet>& points,
 
 }  // namespace
 
+double NormalLength(double weight, double diagonal) {
+  return weight * diagonal / std::sqrt(12.0);  // a ball of radius 1 lies in a cube of side 2
+}
+
 SurfaceComparison CompareSurfaces(const std::vector<TriangleMesh>& samples,
                                   const std::vector<TriangleMesh>& reference,
                                   const std::vector<TriangleMesh>& training,
@@ -108,11 +161,19 @@ SurfaceComparison CompareSurfaces(const std::vector<TriangleMesh>& samples,
   const auto n = static_cast<Eigen::Index>(samples.size());
 
   SurfaceComparison result;
-  result.sets =
-      CompareSets(all.topLeftCorner(n, n), all.topRightCorner(n, n), all.bottomRightCorner(n, n));
+  result.sets = CompareHalves(all);
   result.spread = CompareSpreads(clean.topLeftCorner(n, n), clean.bottomRightCorner(n, n));
   result.samples = LookOf(samples, floors.data(), options.threads);
   result.reference = LookOf(reference, floors.data() + n, options.threads);
+  CompareAngles(samples, reference, options.threads, &result);
+  if (options.normals > 0.0) {
+    std::vector<OrientedPointSet> oriented;
+    const double length = NormalLength(options.normals, result.reference.size);
+    AddOriented(samples, streams.samples, kSamples, options, length, place, &oriented);
+    AddOriented(reference, streams.reference, kReference, options, length, place, &oriented);
+    result.normals =
+        CompareHalves(ChamferMatrix(oriented, options.threads, progress("distances with normals")));
+  }
   const double scale = 0.5 * result.spread.median_distance;
   result.samples.vendi = VendiScore(clean.topLeftCorner(n, n), scale);
   result.reference.vendi = VendiScore(clean.bottomRightCorner(n, n), scale);

@@ -124,10 +124,16 @@ TEST(CompareCli, WritesEveryMeasureOfEitherSetUnderItsOwnName) {
   expect("vendi", found.samples.vendi, found.reference.vendi);
   EXPECT_EQ(measures["roughness"].samples, FormatDouble(found.samples.roughness));
   EXPECT_EQ(measures["roughness"].reference, FormatDouble(found.reference.roughness));
+  expect("flat_share", found.samples.flat, found.reference.flat);
+  expect("crease_share", found.samples.crease, found.reference.crease);
+  expect("dihedral_distance", found.dihedral_distance, std::nullopt);
+  ASSERT_TRUE(found.normals);
+  expect("coverage_normals", found.normals->coverage, std::nullopt);
+  expect("nna_normals", found.normals->nna, std::nullopt);
   ASSERT_TRUE(found.memorisation);
   expect("nearest_training", found.memorisation->samples, found.memorisation->reference);
   expect("nearer_to_training", found.memorisation->nearer, std::nullopt);
-  EXPECT_EQ(measures.size(), 15U);
+  EXPECT_EQ(measures.size(), 20U);
   // Diagonals by hand: the files hold single precision.
   const auto mean = [](double x, double y, double z) {
     return (std::sqrt(2 + x * x) + std::sqrt(2 + y * y) + std::sqrt(2 + z * z)) / 3.0;
@@ -145,6 +151,9 @@ TEST(CompareCli, TakesAsManyShapesOfBothSetsAsAskedFor) {
   ASSERT_EQ(Antigrasp(sets + "all.csv").code, 0);
   EXPECT_EQ(Measures(folder / "all.csv")["shapes"].samples, "4");
   EXPECT_EQ(Measures(folder / "all.csv").count("nearer_to_training"), 0u);
+  EXPECT_EQ(Measures(folder / "all.csv").count("nna_normals"), 1u);
+  ASSERT_EQ(Antigrasp(sets + "plain.csv --normals 0").code, 0);
+  EXPECT_EQ(Measures(folder / "plain.csv").count("nna_normals"), 0u);
   ASSERT_EQ(Antigrasp(sets + "three.csv --count 3").code, 0);
   EXPECT_EQ(Measures(folder / "three.csv")["shapes"].reference, "3");
   ASSERT_EQ(Antigrasp(sets + "other.csv --seed 2").code, 0);
@@ -220,6 +229,7 @@ TEST(CompareCli, RefusesBadInputAndWritesNothing) {
   ExpectRefused("compare " + dir + "a", "REFERENCE");
   ExpectRefused("compare " + dir + "a " + dir + "b --count 1" + out, "--count");
   ExpectRefused("compare " + dir + "a " + dir + "b --points 0" + out, "--points");
+  ExpectRefused("compare " + dir + "a " + dir + "b --normals -1" + out, "--normals");
   ExpectRefused("compare " + dir + "a " + dir + "b --out " + dir + "none/c.csv", "none");
   folder.Write("text.txt", "no mesh");
   ExpectRefused("compare " + dir + "text.txt " + dir + "b" + out, "text.txt");

@@ -33,26 +33,53 @@ std::vector<Vector3f> OnSphere(float radius, int count, std::uint64_t seed) {
   return points;
 }
 
-TEST(NearestSquared, IsThatOfThePlainDoubleLoopBitForBit) {
-  for (const int count : {1, 2, 15, 16, 17, 100, 1024}) {
-    const PointSet from(Cloud(count, 1)), to(Cloud(333, 2));
-    std::vector<float> squared;
-    NearestSquared(from, to, &squared);
-    for (std::size_t b = 0; b < from.blocks().size(); ++b) {
-      const auto& query = from.blocks()[b];
-      for (std::size_t lane = 0; lane < PointSet::kBlock; ++lane) {
-        float expected = std::numeric_limits<float>::infinity();
-        for (const auto& block : to.blocks()) {
-          for (std::size_t j = 0; j < block.used; ++j) {
-            const float dx = query.x[lane] - block.x[j], dy = query.y[lane] - block.y[j],
-                        dz = query.z[lane] - block.z[j];
-            expected = std::min(expected, (dx * dx + dy * dy) + dz * dz);
+// Six normal numbers a point.
+std::vector<OrientedPointSet::Point> SixfoldCloud(int count, std::uint64_t seed) {
+  RngStream rng(seed, "cloud");
+  std::vector<OrientedPointSet::Point> points(static_cast<std::size_t>(count));
+  for (auto& point : points) {
+    for (float& coordinate : point) coordinate = static_cast<float>(rng.Normal());
+  }
+  return points;
+}
+
+template <int D>
+void ExpectThoseOfThePlainDoubleLoop(const PointBlocks<D>& from, const PointBlocks<D>& to) {
+  std::vector<float> squared;
+  NearestSquared(from, to, &squared);
+  for (std::size_t b = 0; b < from.blocks().size(); ++b) {
+    const auto& query = from.blocks()[b];
+    for (std::size_t lane = 0; lane < PointSet::kBlock; ++lane) {
+      float expected = std::numeric_limits<float>::infinity();
+      for (const auto& block : to.blocks()) {
+        for (std::size_t j = 0; j < block.used; ++j) {
+          float sum = 0.0F;
+          for (std::size_t k = 0; k < std::size_t{D}; ++k) {
+            const float step = query.at[k][lane] - block.at[k][j];
+            sum += step * step;
           }
+          expected = std::min(expected, sum);
         }
-        EXPECT_EQ(squared[b * PointSet::kBlock + lane], expected);
       }
+      EXPECT_EQ(squared[b * PointSet::kBlock + lane], expected);
     }
   }
+}
+
+TEST(NearestSquared, IsThatOfThePlainDoubleLoopBitForBit) {
+  for (const int count : {1, 2, 15, 16, 17, 100, 1024}) {
+    ExpectThoseOfThePlainDoubleLoop(PointSet(Cloud(count, 1)), PointSet(Cloud(333, 2)));
+    ExpectThoseOfThePlainDoubleLoop(OrientedPointSet(SixfoldCloud(count, 1)),
+                                    OrientedPointSet(SixfoldCloud(333, 2)));
+  }
+}
+
+TEST(NearestSquared, WithNormalsOfSurfacesIsThatOfThePlainDoubleLoopBitForBit) {
+  const auto points = [](const TriangleMesh& mesh, std::uint64_t shape) {
+    return OrientedSurfacePoints(mesh, 500, 1, 0, shape, 0.3);
+  };
+  ExpectThoseOfThePlainDoubleLoop(points(shapes::Box({1, 2, 3}), 0),
+                                  points(shapes::Sphere(1.0, 3), 1));
 }
 
 void ExpectTight(const std::array<float, PointSet::kBlock>& lanes, float low, float high) {
@@ -68,11 +95,11 @@ TEST(PointSet, KeepsEveryPointOnceInATightBox) {
     const auto& block = set.blocks()[b];
     used += block.used;
     for (std::size_t lane = 0; lane < block.used; ++lane) {
-      sum += Eigen::Vector3d(block.x[lane], block.y[lane], block.z[lane]);
+      sum += Eigen::Vector3d(block.at[0][lane], block.at[1][lane], block.at[2][lane]);
     }
-    ExpectTight(block.x, set.boxes().low[0][b], set.boxes().high[0][b]);
-    ExpectTight(block.y, set.boxes().low[1][b], set.boxes().high[1][b]);
-    ExpectTight(block.z, set.boxes().low[2][b], set.boxes().high[2][b]);
+    ExpectTight(block.at[0], set.boxes().low[0][b], set.boxes().high[0][b]);
+    ExpectTight(block.at[1], set.boxes().low[1][b], set.boxes().high[1][b]);
+    ExpectTight(block.at[2], set.boxes().low[2][b], set.boxes().high[2][b]);
   }
   for (const Vector3f& point : Cloud(1000, 3)) expected += point.cast<double>();
   EXPECT_EQ(used, 1000u);
@@ -99,6 +126,45 @@ TEST(Chamfer, LooksAlongEveryAxis) {
   EXPECT_DOUBLE_EQ(Chamfer(origin, PointSet({Vector3f(3, 4, 7)})), 7.0);  // 2, 3, 6
   EXPECT_DOUBLE_EQ(Chamfer(origin, PointSet({Vector3f(1, 6, 1)})), 5.0);
   EXPECT_DOUBLE_EQ(Chamfer(origin, PointSet({Vector3f(1, 1, -3)})), 4.0);
+}
+
+// A shape and the same one inside out: the same points, every normal turned by 180 degrees.
+TEST(Chamfer, WithNormalsIsTheirTurnByTheirLength) {
+  const TriangleMesh square = shapes::FlatSquare(), turned = shapes::Inverted(square);
+  const auto points = [](const TriangleMesh& mesh, double length) {
+    return OrientedSurfacePoints(mesh, 500, 1, 0, 0, length);
+  };
+  EXPECT_EQ(Chamfer(points(square, 0.25), points(square, 0.25)), 0.0);
+  const double apart = Chamfer(points(square, 0.25), points(turned, 0.25));
+  EXPECT_GE(apart, 0.5);  // points of either are drawn on faces of another order
+  EXPECT_LT(apart, 0.51);
+  const double same =
+      Chamfer(SurfacePoints(square, 500, 1, 0, 0), SurfacePoints(turned, 500, 1, 0, 0));
+  EXPECT_NEAR(Chamfer(points(square, 0.0), points(turned, 0.0)), same, 1e-7);
+}
+
+TEST(Chamfer, WithNormalsSeesRipplesThatHardlyMoveASurface) {
+  // A plane of strips that lean 30 degrees to either side in turn, 0.005 high, and a flat one.
+  TriangleMesh flat, ripples;
+  for (int i = 0; i <= 100; ++i) {
+    const double x = 0.01 * i, height = i % 2 == 0 ? 0.0 : 0.01 * std::tan(M_PI / 6);
+    flat.vertices.insert(flat.vertices.end(), {{x, 0, 0}, {x, 1, 0}});
+    ripples.vertices.insert(ripples.vertices.end(), {{x, 0, height}, {x, 1, height}});
+  }
+  for (std::int32_t i = 0; i < 200; i += 2) {
+    flat.faces.insert(flat.faces.end(), {{i, i + 2, i + 3}, {i, i + 3, i + 1}});
+  }
+  ripples.faces = flat.faces;
+  const double place = Chamfer(SurfacePoints(flat, 2000, 1, 0, 0),
+                               SurfacePoints(ripples, 2000, 1, 1, 0)),
+               floor =
+                   Chamfer(SurfacePoints(flat, 2000, 1, 0, 0), SurfacePoints(flat, 2000, 1, 1, 0));
+  EXPECT_LT(place, 1.3 * floor);
+  const double turned = Chamfer(OrientedSurfacePoints(flat, 2000, 1, 0, 0, 0.1),
+                                OrientedSurfacePoints(ripples, 2000, 1, 1, 0, 0.1));
+  // Every normal leans by 30 degrees.
+  EXPECT_NEAR(turned, std::hypot(0.2 * std::sin(M_PI / 12), place), 0.002);
+  EXPECT_GT(turned, 4 * floor);
 }
 
 TEST(Chamfer, OfEqualSetsIsZeroInAnyOrder) {
@@ -152,6 +218,9 @@ TEST(ChamferMatrix, IsSymmetricAndTheSameAtAnyThreadCount) {
                 static_cast<float>(Chamfer(shapes[std::size_t(i)], shapes[std::size_t(j)])));
     }
   }
+  std::vector<OrientedPointSet> oriented;
+  for (std::uint64_t i = 0; i < 5; ++i) oriented.emplace_back(SixfoldCloud(60 + int(i), i));
+  EXPECT_EQ(ChamferMatrix(oriented, 1), ChamferMatrix(oriented, 4));
 }
 
 TEST(NearestChamfer, IsTheSmallestOfTheRow) {

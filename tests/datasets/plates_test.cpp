@@ -150,8 +150,9 @@ TEST(CompareSurfaces, NamesItsPhasesAndCountsThem) {
                       EXPECT_LE(done, total);
                     };
                   });
-  EXPECT_EQ(phases, (std::vector<std::string>{"distances", "distances to the training shapes"}));
-  EXPECT_EQ(totals, (std::vector<std::int64_t>{3, 6}));  // pairs of rows; shapes
+  EXPECT_EQ(phases, (std::vector<std::string>{"distances", "distances with normals",
+                                              "distances to the training shapes"}));
+  EXPECT_EQ(totals, (std::vector<std::int64_t>{3, 3, 6}));  // pairs of rows; shapes
 }
 
 TEST(CompareSurfaces, RefusesSetsOfOneShapeOrOfOtherSizes) {
@@ -161,6 +162,7 @@ TEST(CompareSurfaces, RefusesSetsOfOneShapeOrOfOtherSizes) {
 
 TEST(SurfaceComparisonOptions, TakeAThousandPointsBySeedOne) {
   const SurfaceComparisonOptions options;
+  EXPECT_EQ(options.normals, 1.0);
   EXPECT_EQ(options.points, 1024);
   EXPECT_EQ(options.seed, 1U);
   EXPECT_EQ(options.threads, 0);

@@ -139,6 +139,33 @@ TEST(PriorSet, NamesCountFromZeroWithSixDigits) {
   EXPECT_EQ(set.names, (std::vector<std::string>{"prisms-000000", "prisms-000001"}));
 }
 
+TEST(PriorSet, WithoutGraftsIsTheSameShapesLargePartsWhereTheyLie) {
+  for (const char* kind : {"cylinders", "prisms"}) {
+    const auto left = [&](int grafts) {
+      return MakePriorSet({.kind = kind, .count = 3, .resolution = 16, .grafts = grafts});
+    };
+    const ShapeSet none = left(0), one = left(1), both = left(2);
+    for (std::size_t i = 0; i < 3; ++i) {
+      int inside[3] = {};
+      for (std::size_t k = 0; k < both.grids[i].values.size(); ++k) {
+        const float values[3] = {none.grids[i].values[k], one.grids[i].values[k],
+                                 both.grids[i].values[k]};
+        // A union's distance is at least that of every part.
+        ASSERT_LE(values[0], values[1] + 2e-3F);  // cylinders have 64 sides in unions
+        ASSERT_LE(values[1], values[2] + 1e-6F);
+        for (std::size_t j = 0; j < 3; ++j) inside[j] += values[j] > 0.0F ? 1 : 0;
+      }
+      EXPECT_GT(inside[0], 0);
+      EXPECT_LT(inside[0], inside[1]);
+      EXPECT_LT(inside[1], inside[2]);
+    }
+    EXPECT_TRUE(none.provenance.ends_with(", grafts 0")) << none.provenance;
+    EXPECT_TRUE(both.provenance.ends_with(", count 3")) << both.provenance;
+  }
+  EXPECT_THROW(MakePriorSet({.kind = "bottles", .count = 1, .grafts = 1}), InputError);
+  EXPECT_THROW(MakePriorSet({.count = 1, .grafts = 3}), InputError);
+}
+
 TEST(PriorSet, OtherResolutionsWorkToo) {
   const ShapeSet set = Make("bottles", 2, 2, 1, 48);
   EXPECT_EQ(set.grids[0].n, 48);

@@ -47,6 +47,57 @@ TEST(MeanDihedralAngle, OfBendsUpAndDownIsTheirSum) {
   EXPECT_NEAR(MeanDihedralAngle(Strip(150, 120)), 270 / (2 + 3 * std::sqrt(2.0)), 1e-9);
 }
 
+TEST(DihedralAngles, AreSharesOfTheEdgesLengthBelowTwoAndAboveThirtyDegrees) {
+  const double length = 2 + 3 * std::sqrt(2.0), seam = 1 / length;
+  const auto strip = [](double up, double down) { return DihedralAnglesOf(Strip(up, down)); };
+  EXPECT_NEAR(strip(1.99, 30.01).flat, 1 - seam, 1e-9);
+  EXPECT_NEAR(strip(1.99, 30.01).crease, seam, 1e-9);
+  EXPECT_NEAR(strip(2.01, 29.99).flat, 1 - 2 * seam, 1e-9);
+  EXPECT_EQ(strip(2.01, 29.99).crease, 0.0);
+  const DihedralAngles cube = DihedralAnglesOf(shapes::Cube());
+  EXPECT_NEAR(cube.flat, 1 - kCube / 90, 1e-9);
+  EXPECT_NEAR(cube.crease, kCube / 90, 1e-9);
+}
+
+TEST(DihedralAngles, SpreadOverTheStepsWithTheirMean) {
+  const DihedralAngles strip = DihedralAnglesOf(Strip(20.1, 179.9));
+  double sum = 0.0, mean = 0.0;
+  for (std::size_t i = 0; i < strip.spread.size(); ++i) {
+    sum += strip.spread[i];
+    mean += DihedralAngles::kStep * static_cast<double>(i) * strip.spread[i];
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+  EXPECT_NEAR(mean, 200 / (2 + 3 * std::sqrt(2.0)), 1e-9);
+  // 20.1 lies two fifths of a step above 20.
+  EXPECT_NEAR(strip.spread[80] / strip.spread[81], 3.0 / 2, 1e-6);
+  for (const double none : DihedralAnglesOf({}).spread) EXPECT_EQ(none, 0.0);
+}
+
+TEST(DihedralDistance, IsHowFarAnglesMoveByTheShareThatMoves) {
+  const double seam = 1 / (2 + 3 * std::sqrt(2.0));
+  const auto apart = [](const TriangleMesh& a, const TriangleMesh& b) {
+    return DihedralDistance(DihedralAnglesOf(a), DihedralAnglesOf(b));
+  };
+  EXPECT_NEAR(apart(Strip(10, 40), Strip(25, 40)), 15 * seam, 1e-9);
+  EXPECT_NEAR(apart(Strip(25, 40), Strip(10, 40)), 15 * seam, 1e-9);
+  EXPECT_NEAR(apart(Strip(10, 40), Strip(40, 10)), 0.0, 1e-9);        // the edges' order is nothing
+  EXPECT_NEAR(apart(Strip(10, 40), Strip(45, 50)), 45 * seam, 1e-9);  // 10 to 45, or to 50
+  EXPECT_NEAR(apart(Strip(0, 90), Strip(0.1, 90)), 0.1 * seam, 1e-9);  // within a step
+}
+
+TEST(DihedralDistance, OfSetsWeighsEveryShapeAlike) {
+  // A cube a thousand times as large, and one cut finer, count as much as a small one.
+  const DihedralAngles cube = DihedralAnglesOf(shapes::Cube()),
+                       large = DihedralAnglesOf(Transformed(shapes::Cube(), 1000.0, {0, 0, 0})),
+                       square = DihedralAnglesOf(shapes::FlatSquare());
+  const DihedralAngles half = MeanOf({square, large});
+  EXPECT_NEAR(half.flat, 1 - 0.5 * kCube / 90, 1e-9);
+  EXPECT_NEAR(half.crease, 0.5 * kCube / 90, 1e-9);
+  EXPECT_NEAR(DihedralDistance(half, MeanOf({cube, cube, square, square})), 0.0, 1e-9);
+  EXPECT_NEAR(DihedralDistance(half, MeanOf({cube})), 0.5 * kCube, 1e-9);
+  EXPECT_THROW(MeanOf({}), std::logic_error);
+}
+
 TEST(MeanDihedralAngle, KeepsATinyAngle) {
   const double tiny = 1e-8;  // its cosine is 1
   EXPECT_NEAR(MeanDihedralAngle(Strip(tiny, 0)), tiny / (2 + 3 * std::sqrt(2.0)), 1e-6 * tiny);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "antigrasp/core/rng.h"
 #include "tests/support/shapes.h"
@@ -44,6 +45,10 @@ TEST(CompareSurfaces, FindsThePermutedSetItself) {
   EXPECT_NEAR(same.samples.vendi, same.reference.vendi, 0.3);
   EXPECT_NEAR(same.samples.size, same.reference.size, 1e-12);
   EXPECT_NEAR(same.samples.roughness, same.reference.roughness, 1e-9);
+  EXPECT_EQ(same.normals->coverage, 1.0);
+  EXPECT_EQ(same.normals->nna, 0.0);
+  EXPECT_NEAR(same.dihedral_distance, 0.0, 1e-9);
+  EXPECT_NEAR(same.samples.flat, same.reference.flat, 1e-12);
   EXPECT_FALSE(same.memorisation.has_value());
 }
 
@@ -74,6 +79,35 @@ TEST(CompareSurfaces, AShapesPointsAreThoseOfItsStreamAtAnyPlace) {
   EXPECT_NE(held.reference.floor, one.reference.floor);
   EXPECT_EQ(held.samples.floor, one.samples.floor);
   EXPECT_NE(trained.memorisation->samples, one.memorisation->samples);
+}
+
+TEST(CompareSurfaces, WeighsNormalsByTheReferencesMeanDiagonalOrNotAtAll) {
+  const Meshes samples = Boxes(6, 1), reference = Boxes(6, 2);
+  SurfaceComparisonOptions options = Coarse();
+  options.normals = 0.5;
+  const SurfaceComparison found = CompareSurfaces(samples, reference, {}, options);
+  const double length = 0.5 * found.reference.size / (2 * std::sqrt(3.0));
+  std::vector<OrientedPointSet> points;
+  const Eigen::Vector3d place = Eigen::Vector3d::Zero();  // boxes lie around it
+  for (std::uint64_t i = 0; i < 12; ++i) {
+    points.push_back(OrientedSurfacePoints(i < 6 ? samples[i] : reference[i - 6], 512, 1, i / 6,
+                                           i % 6, length, place));
+  }
+  const DistanceMatrix all = ChamferMatrix(points, 1);
+  const SetComparison expected =
+      CompareSets(all.topLeftCorner(6, 6), all.topRightCorner(6, 6), all.bottomRightCorner(6, 6));
+  EXPECT_NEAR(found.normals->matching, expected.matching, 1e-6);
+  EXPECT_NEAR(found.normals->within_reference, expected.within_reference, 1e-6);
+  EXPECT_GT(found.normals->matching, 1.05 * found.sets.matching);
+  options.normals = 0.0;
+  const SurfaceComparison without = CompareSurfaces(samples, reference, {}, options);
+  EXPECT_FALSE(without.normals.has_value());
+  EXPECT_EQ(without.sets.matching, found.sets.matching);
+}
+
+TEST(NormalLength, OfABallIsItsRadius) {
+  EXPECT_NEAR(NormalLength(1.0, Bounds(shapes::Box({6, 6, 6})).Extent().norm()), 3.0, 1e-12);
+  EXPECT_NEAR(NormalLength(0.5, std::sqrt(12.0)), 0.5, 1e-12);
 }
 
 TEST(CompareSurfaces, SeesOneShapeRepeated) {
@@ -126,6 +160,8 @@ TEST(CompareSurfaces, GivesTheSameBitsAtAnyThreadCount) {
   EXPECT_EQ(one.samples.vendi, four.samples.vendi);
   EXPECT_EQ(one.samples.roughness, four.samples.roughness);
   EXPECT_EQ(one.samples.floor, four.samples.floor);
+  EXPECT_EQ(one.normals->matching, four.normals->matching);
+  EXPECT_EQ(one.dihedral_distance, four.dihedral_distance);
   EXPECT_EQ(one.memorisation->samples, four.memorisation->samples);
 }
 

@@ -18,7 +18,7 @@ std::vector<Vector3f> PointsOf(const PointSet& set) {
   std::vector<Vector3f> points;
   for (const auto& block : set.blocks()) {
     for (std::size_t lane = 0; lane < block.used; ++lane) {
-      points.emplace_back(block.x[lane], block.y[lane], block.z[lane]);
+      points.emplace_back(block.at[0][lane], block.at[1][lane], block.at[2][lane]);
     }
   }
   return points;
@@ -38,6 +38,23 @@ TEST(SurfacePoints, AreDrawnFromTheStreamOfSeedSetAndShape) {
         SurfacePoints(box, 100, 7, 2, 6), SurfacePoints(box, 100, 7, 5, 2)}) {
     EXPECT_GT(Chamfer(points, other), 0.01);
   }
+}
+
+TEST(SurfacePoints, WithNormalsAreTheSamePointsBesideTheOutwardNormalsOfTheirFaces) {
+  const TriangleMesh box = shapes::Box({2, 2, 2});
+  const Vector3d origin(0.5, 0.25, 0.125);
+  const OrientedPointSet oriented = OrientedSurfacePoints(box, 200, 7, 2, 5, 0.5, origin);
+  std::vector<Vector3f> places;
+  for (const auto& block : oriented.blocks()) {
+    for (std::size_t lane = 0; lane < block.used; ++lane) {
+      places.emplace_back(block.at[0][lane], block.at[1][lane], block.at[2][lane]);
+      const Vector3f normal(block.at[3][lane], block.at[4][lane], block.at[5][lane]);
+      EXPECT_NEAR(normal.norm(), 0.5F, 1e-6F);
+      const Vector3f place = places.back() + origin.cast<float>();
+      EXPECT_NEAR(place.dot(normal), 0.5F, 1e-6F);  // 1 from the middle along the normal
+    }
+  }
+  EXPECT_EQ(Chamfer(PointSet(places), SurfacePoints(box, 200, 7, 2, 5, origin)), 0.0);
 }
 
 // A square of side 1 and one of side 3 high above it: one point in ten lies on the small one.
