@@ -46,7 +46,9 @@ std::vector<std::pair<std::string, double>> StageScalars(const StageStatistics& 
       {"stage/coverage", row.coverage},
       {"stage/near_duplicates", row.duplicates},
       {"stage/diversity", row.diversity},
-      {"stage/1-NNA", row.nna}};
+      {"stage/1-NNA", row.nna},
+      {"stage/flat_share", row.flat},
+      {"stage/crease_share", row.crease}};
   if (prior != nullptr) {
     scalars.emplace_back("stage/kappa", Ratio(row.graspability, prior->graspability).mean);
   }

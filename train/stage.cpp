@@ -9,7 +9,9 @@
 #include <numeric>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/parallel.h"
 #include "antigrasp/core/rng.h"
+#include "antigrasp/datasets/roughness.h"
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/quality/score_table.h"
 #include "antigrasp/train/prior_similarity.h"
@@ -36,6 +38,21 @@ void FillSimilarity(const ScoredStage& scored, const torch::Tensor& prior, int c
   row->nna = similarity.nna;
   row->duplicates = similarity.duplicates;
   row->diversity = similarity.diversity;
+}
+
+void FillAngles(const ScoredStage& scored, int threads, StageStatistics* row) {
+  std::vector<double> flat(scored.objects.size(), kNaN), crease(flat);
+  ParallelFor(std::ssize(scored.objects), threads, [&](std::int64_t i) {
+    const auto slot = static_cast<std::size_t>(i);
+    if (!scored.objects[slot].ok()) return;
+    const DihedralAngles angles = DihedralAnglesOf(scored.objects[slot].mesh);
+    flat[slot] = angles.flat;
+    crease[slot] = angles.crease;
+  });
+  const MeanInterval mean = MeanWithInterval(flat);
+  if (mean.count == 0) return;
+  row->flat = mean.mean;
+  row->crease = MeanWithInterval(crease).mean;
 }
 
 // As many objects as values, none of them made.
@@ -196,6 +213,7 @@ StageStatistics Summarize(int stage, const ScoredStage& scored, const torch::Ten
   row.elite_threshold = kNaN;
   row.coverage = row.nna = row.duplicates = row.diversity = kNaN;
   if (stage >= 0) FillSimilarity(scored, prior, config.cem.compared, &row);
+  FillAngles(scored, config.threads, &row);
   return row;
 }
 

@@ -46,7 +46,8 @@ ScoredStage ScoreStageBy(const MeshScore& score, const torch::Tensor& values,
 ScoredStage ScoreStageBy(Judge* judge, const torch::Tensor& values, const RunConfig& config,
                          const ProgressFn& progress);
 
-// Counts, mean graspability and similarity to the prior set (network values).
+// Counts, mean graspability, similarity to the prior set (network values) and the shares of flat
+// edges and creases (meshes).
 StageStatistics Summarize(int stage, const ScoredStage& scored, const torch::Tensor& prior,
                           const RunConfig& config);
 

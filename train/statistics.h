@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct StageStatistics {
   double nna = 0.0;
   double duplicates = 0.0;
   double diversity = 0.0;
+  // Mean shares of edges of the usable samples (datasets/roughness.h); NaN without one, and in a
+  // row that an earlier version wrote.
+  double flat = std::numeric_limits<double>::quiet_NaN();
+  double crease = std::numeric_limits<double>::quiet_NaN();
 
   int rejected() const { return samples - by_status[0]; }
 };

@@ -31,7 +31,12 @@ void ForEachColumn(Row* row, const Field& field) {
   field("nna", row->nna);
   field("duplicates", row->duplicates);
   field("diversity", row->diversity);
+  field("flat_share", row->flat);
+  field("crease_share", row->crease);
 }
+
+// The last columns, which tables of earlier versions lack: none of their rows has such a number.
+constexpr std::size_t kLater = 2;
 
 std::vector<std::string> Columns() {
   std::vector<std::string> names;
@@ -57,14 +62,16 @@ void Take(double number, const CsvReader& csv, Integer* field) {
 }
 
 std::vector<StageStatistics> Rows(CsvReader csv, const std::string& origin) {
-  if (csv.names() != Columns()) {
-    throw InputError("not a statistics table", origin, "the columns " + Listed(Columns()));
+  const std::vector<std::string> all = Columns(), earlier(all.begin(), all.end() - kLater);
+  if (csv.names() != all && csv.names() != earlier) {
+    throw InputError("not a statistics table", origin, "the columns " + Listed(all));
   }
   std::vector<StageStatistics> rows;
   while (csv.Next()) {
     StageStatistics row;
     std::size_t column = 0;
     ForEachColumn(&row, [&](std::string_view name, auto& field) {
+      if (column == csv.names().size()) return;
       const auto number = csv.Number(column++);
       if (!number) throw InputError("no number in " + std::string(name), csv.Where(), "a number");
       Take(*number, csv, &field);

@@ -75,15 +75,16 @@ TEST(StageScalars, AreNamedAndKappaIsRelativeToThePriorSet) {
   row.nna = 0.375;
   row.duplicates = 0.625;
   row.diversity = 0.875;
+  row.flat = 0.0625;
+  row.crease = 0.03125;
   const auto list = StageScalars(row, Stages());
   const std::map<std::string, double> scalars(list.begin(), list.end());
   const std::map<std::string, double> expected = {
-      {"stage/graspability", 0.002}, {"stage/rejected", 0.2},
-      {"stage/coverage", 0.125},     {"stage/near_duplicates", 0.625},
-      {"stage/diversity", 0.875},    {"stage/1-NNA", 0.375},
-      {"stage/kappa", 0.5}};
+      {"stage/graspability", 0.002},    {"stage/rejected", 0.2},         {"stage/coverage", 0.125},
+      {"stage/near_duplicates", 0.625}, {"stage/diversity", 0.875},      {"stage/1-NNA", 0.375},
+      {"stage/flat_share", 0.0625},     {"stage/crease_share", 0.03125}, {"stage/kappa", 0.5}};
   EXPECT_EQ(scalars, expected);
-  EXPECT_EQ(StageScalars(row, {row}).size(), 6U);  // no prior set, no kappa
+  EXPECT_EQ(StageScalars(row, {row}).size(), 8U);  // no prior set, no kappa
 }
 
 TEST(LogStage, SaysKappaByThePriorSetAndNoneOfThePriorItself) {

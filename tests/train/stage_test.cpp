@@ -7,6 +7,7 @@
 #include <set>
 
 #include "antigrasp/core/error.h"
+#include "tests/support/shapes.h"
 #include "tests/train/tiny_run.h"
 
 namespace antigrasp {
@@ -100,6 +101,24 @@ TEST(Summarize, ComparesTheUsableSamplesWithAsManyOfThePriorSet) {
   row = Summarize(-1, FourSamples(), prior, config);  // the prior set itself
   EXPECT_TRUE(std::isnan(row.coverage) && std::isnan(row.nna) && std::isnan(row.duplicates) &&
               std::isnan(row.diversity));
+}
+
+TEST(Summarize, AveragesTheSharesOfEdgesOverTheUsableSamples) {
+  ScoredStage scored = FourSamples();
+  const double right = 12.0 / (12.0 + 6.0 * std::sqrt(2.0));  // a cube's, the others are flat
+  for (RemeshResult& object : scored.objects) object.mesh = shapes::Cube();
+  scored.objects[2].mesh = shapes::FlatSquare();  // all flat
+  scored.objects[1].mesh = {};                    // rejected
+  for (const int threads : {1, 4}) {
+    RunConfig config;
+    config.threads = threads;
+    const StageStatistics row = Summarize(-1, scored, Line({0.0F, 1.0F}), config);
+    EXPECT_NEAR(row.flat, (2 * (1 - right) + 1) / 3, 1e-12);
+    EXPECT_NEAR(row.crease, 2 * right / 3, 1e-12);
+  }
+  for (RemeshResult& object : scored.objects) object.status = RemeshStatus::kGaps;
+  const StageStatistics none = Summarize(-1, scored, Line({0.0F, 1.0F}), RunConfig());
+  EXPECT_TRUE(std::isnan(none.flat) && std::isnan(none.crease));
 }
 
 TEST(GridOf, KeepsEveryNodeInItsPlace) {

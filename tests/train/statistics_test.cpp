@@ -42,8 +42,9 @@ TEST(FindStage, FindsARowByItsStageAndNotByItsPlace) {
 constexpr const char* kTableOfOwnValues =
     "stage,samples,ok,non_finite,empty,touches_border,gaps,non_manifold,non_orientable,"
     "self_intersecting,disjoint,scored,without_grasps,graspability,half_width_95,count,"
-    "elite_threshold,coverage,nna,duplicates,diversity\n"
-    "3,50,12,13,14,15,16,17,18,19,20,21,22,0.5,0.25,23,0.75,0.125,0.375,0.625,0.875\n";
+    "elite_threshold,coverage,nna,duplicates,diversity,flat_share,crease_share\n"
+    "3,50,12,13,14,15,16,17,18,19,20,21,22,0.5,0.25,23,0.75,0.125,0.375,0.625,0.875,0.0625,"
+    "0.03125\n";
 
 TEST(Statistics, WriteEveryFieldUnderItsOwnName) {
   StageStatistics row;
@@ -58,6 +59,8 @@ TEST(Statistics, WriteEveryFieldUnderItsOwnName) {
   row.nna = 0.375;
   row.duplicates = 0.625;
   row.diversity = 0.875;
+  row.flat = 0.0625;
+  row.crease = 0.03125;
   EXPECT_EQ(StatisticsToCsv({row}), kTableOfOwnValues);
   EXPECT_EQ(row.rejected(), 38);  // 50 without the 12 that are ok
 }
@@ -82,6 +85,29 @@ TEST(Statistics, ReadEveryFieldFromTheColumnOfItsName) {
   EXPECT_EQ(row.nna, 0.375);
   EXPECT_EQ(row.duplicates, 0.625);
   EXPECT_EQ(row.diversity, 0.875);
+  EXPECT_EQ(row.flat, 0.0625);
+  EXPECT_EQ(row.crease, 0.03125);
+}
+
+TEST(Statistics, OfAnEarlierVersionHaveNoSharesOfEdges) {
+  const std::string table =
+      "stage,samples,ok,non_finite,empty,touches_border,gaps,non_manifold,non_orientable,"
+      "self_intersecting,disjoint,scored,without_grasps,graspability,half_width_95,count,"
+      "elite_threshold,coverage,nna,duplicates,diversity\n"
+      "0,9,9,0,0,0,0,0,0,0,0,9,0,0.5,0.25,9,0.75,0.125,0.375,0.625,0.875\n";
+  auto rows = StatisticsFromCsv(table, "x");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].diversity, 0.875);
+  EXPECT_TRUE(std::isnan(rows[0].flat) && std::isnan(rows[0].crease));
+  // A run that goes on writes both of what it makes, in the columns of this version.
+  rows.push_back(Row(1, 1, 1));
+  rows[1].flat = 0.5;
+  const std::string csv = StatisticsToCsv(rows);
+  EXPECT_NE(csv.find(",diversity,flat_share,crease_share\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",0.875,nan,nan\n"), std::string::npos) << csv;
+  EXPECT_EQ(StatisticsFromCsv(csv, "x")[1].flat, 0.5);
+  // One of the two alone is nobody's table.
+  EXPECT_THROW(StatisticsFromCsv(csv.substr(0, csv.find(",crease_share")) + "\n", "x"), InputError);
 }
 
 TEST(Statistics, SurviveARoundTripThroughCsv) {
