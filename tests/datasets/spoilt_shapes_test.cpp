@@ -1,4 +1,5 @@
-// Which measure of a comparison sees which fault: prisms spoilt on purpose, as in docs/similarity.md.
+// Which measure of a comparison sees which fault: prisms spoilt on purpose, as in
+// docs/similarity.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 using Grids = std::vector<SdfGrid>;
 
 Grids Prisms(std::uint64_t seed, int grafts = 2) {
-  return MakePriorSet({.kind = "prisms", .count = 24, .seed = seed, .grafts = grafts}).grids;
+  return MakePriorSet({.kind = "prisms", .count = 18, .seed = seed, .grafts = grafts}).grids;
 }
 
 const Grids& Exact() {
@@ -39,8 +40,9 @@ Grids Rounded(Grids grids) {
   for (SdfGrid& grid : grids) {
     for (int pass = 0; pass < 6; ++pass) {
       const std::vector<float> from = grid.values;
-      const std::size_t step = pass % 3 == 0 ? 1 : pass % 3 == 1 ? grid.Index(0, 1, 0)
-                                                                 : grid.Index(0, 0, 1);
+      const std::size_t step = pass % 3 == 0   ? 1
+                               : pass % 3 == 1 ? grid.Index(0, 1, 0)
+                                               : grid.Index(0, 0, 1);
       for (std::size_t i = step; i + step < from.size(); ++i) {  // shapes stay off the border
         grid.values[i] = 0.25F * (from[i - step] + 2.0F * from[i] + from[i + step]);
       }
@@ -62,7 +64,7 @@ SurfaceComparison Compared(const Grids& samples, const Grids& reference) {
   std::vector<TriangleMesh> a = Solids(samples), b = Solids(reference);
   a.resize(std::min(a.size(), b.size()));
   b.resize(a.size());
-  EXPECT_GE(a.size(), 20U);  // few are torn apart
+  EXPECT_GE(a.size(), 15U);  // few are torn apart
   SurfaceComparisonOptions options;
   options.points = 512;
   return CompareSurfaces(a, b, {}, options);
