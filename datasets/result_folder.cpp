@@ -5,7 +5,6 @@
 #include "antigrasp/core/csv_reader.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/object_names.h"
-#include "antigrasp/mesh/mesh_file.h"
 
 namespace antigrasp {
 namespace {
@@ -70,18 +69,9 @@ void RequireFolders(const fs::path& folder, const Paths& written) {
   }
 }
 
-// A search of the folder would find them.
-void RequireNotSearched(const fs::path& folder, const ResultFiles& files,
-                        const ObjectSource& objects) {
-  for (const std::string& pattern : files.of_object) {
-    if (IsMeshFile(pattern)) objects.RequireNotSearched((folder / pattern).parent_path());
-  }
-}
-
 // Every file that must give way to the call's, the table last.
 Paths OldFiles(const fs::path& folder, const ResultFiles& files, const ObjectSource& objects,
                bool overwrite) {
-  RequireNotSearched(folder, files, objects);
   if (!fs::exists(folder)) return {};
   Paths written(files.of_call.begin(), files.of_call.end());
   for (std::int64_t i = 0; i < objects.size(); ++i) AddFilesOf(objects.name(i), files, &written);

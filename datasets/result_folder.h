@@ -29,8 +29,7 @@ struct ResultFiles {
 class ResultFolder {
  public:
   // Makes the folder where it is missing. InputError for a used one, for one that cannot be written
-  // to, when a file that objects are read from would be written over or removed, and when the next
-  // call would take meshes that this one writes for objects.
+  // to, and when a file that objects are read from would be written over or removed.
   ResultFolder(const std::filesystem::path& folder, const ResultFiles& files,
                const ObjectSource& objects, bool overwrite);
   // Where the files are to be written, as if it were the folder.

@@ -59,23 +59,6 @@ void WriteInputs(const TempFolder& folder) {
   WriteShapeSet(folder / "none.h5", set);
 }
 
-// They would be objects of the next call.
-TEST(FoldersCli, MeshesAreNotWrittenWhereTheNextCallLooksForObjects) {
-  const TempFolder folder;
-  const std::string dir = folder.path().string() + "/";
-  fs::create_directories(folder / "in");
-  WriteMesh(folder / "in/cube.stl", shapes::Cube());
-  const auto before = FileContents(folder / "in");
-  for (const char* words : {"export", "perturb random --iterations 3 --num-grasps 5"}) {
-    for (const char* out : {"in", "in/after", "in/../in/deep/er"}) {
-      ExpectRefused(words + (" " + dir) + "in --out " + dir + out,
-                    "meshes written there would be read by the next call");
-    }
-  }
-  EXPECT_TRUE(before == FileContents(folder / "in"));
-  EXPECT_EQ(Antigrasp("export " + dir + "in/cube.stl --out " + dir + "in/print").code, 0);
-}
-
 TEST(FoldersCli, AUsedFolderIsRefusedAndOverwrittenOnlyWhenAskedAndOnlyItsOwnFiles) {
   for (const Command& command : Commands()) {
     const TempFolder folder;

@@ -128,7 +128,7 @@ TEST_F(TrialPhysicsCli, EveryFileHasTheSameBytesForAnyNumberOfThreads) {
 TEST_F(TrialPhysicsCli, ABaselinePairsWhatBothSidesHave) {
   const std::string text =
       Run(Trial("after") + "--baseline " + File("before") + " --out " + File("t")).text;
-  EXPECT_NE(text.find("(1 pairs)"), std::string::npos) << text;
+  EXPECT_NE(text.find("(1 pairs; not paired: 1 before: open)"), std::string::npos) << text;
   const Rows trials = Table(folder_ / "t" / "trials.csv");
   EXPECT_EQ(trials.size(), 8u);  // two objects, two sides, own and equal mass
   for (auto row : trials) {
