@@ -13,9 +13,9 @@ namespace antigrasp {
 
 // Options that were typed: they go before what a protocol lays down.
 struct TypedTrial {
-  std::function<void(OptionTable* table)> apply;             // to keys "trial.*"; nullptr: none
+  std::function<void(OptionTable* table)> apply;            // to keys "trial.*"; nullptr: none
   std::function<std::string(const std::string& key)> text;  // "--mass 0.1" of "trial.mass"; or ""
-  bool friction = false;                                     // the metric's was typed, too
+  bool friction = false;                                    // the metric's was typed, too
 
   std::string Text(const std::string& key) const { return text ? text(key) : ""; }
   std::string First() const;  // text of the first option of a trial that was typed; "" for none

@@ -87,8 +87,8 @@ void TrialResults::GoOn() {
   for (const fs::path& file : {executions, replays}) RequireFile(file, "as the trial left it");
   AppendFile(executions, fs::file_size(executions), &*executions_file_);
   executions_.TakeText();  // the header is there
-  const std::uintmax_t size = fs::file_size(replays), end = ReplayFile().EndText().size() -
-                                                            ReplayFile().TakeText().size();
+  const std::uintmax_t size = fs::file_size(replays),
+                       end = ReplayFile().EndText().size() - ReplayFile().TakeText().size();
   const std::uintmax_t kept = size - std::min(size, end);
   AppendFile(replays, kept, &*replays_file_);
   replays_.GoOnBehind(kept);

@@ -103,8 +103,9 @@ TEST_F(ObjectTrials, WhatAnInterruptedCallHasTriedIsKeptAndTheSameCallGoesOnToTh
     const PhysicsTrialReport rest = Try(out);
     request_.threads = 1;
     EXPECT_FALSE(rest.interrupted);
-    EXPECT_EQ(rest.text.substr(0, rest.text.rfind((folder_ / out).string() + ": trials.csv")),
-              whole.text.substr(0, whole.text.rfind((folder_ / "whole").string() + ": trials.csv")));
+    EXPECT_EQ(
+        rest.text.substr(0, rest.text.rfind((folder_ / out).string() + ": trials.csv")),
+        whole.text.substr(0, whole.text.rfind((folder_ / "whole").string() + ": trials.csv")));
     EXPECT_TRUE(shapes::FileContents(folder_ / out) == files) << stop;
     EXPECT_FALSE(ReadUnfinished(folder_ / out));
   }
