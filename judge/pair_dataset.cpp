@@ -113,7 +113,10 @@ PairReport WritePairDataset(const PairRequest& request, const MetricOptions& met
       SplitOf(names, after.streams(), request.train, request.val, request.seed);
   PhysicsTrials(trial_metric, trial, request.seed, 1);  // refuses what cannot be
   const std::filesystem::path out = request.out;
-  for (const char* side : kSides) before.RequireNotSearched(out / side);
+  for (const char* side : kSides) {
+    before.RequireNotSearched(out / side);
+    after.RequireNotSearched(out / side);
+  }
   ResultFolder folder(out, kPairFiles, after, request.overwrite);
   for (const char* side : kSides) MakeFolder(folder.path() / side);
   PairObjects objects;
