@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "antigrasp/core/rng.h"
-#include "antigrasp/models/model_options.h"
+#include "antigrasp/models/shape_generator.h"
 
 namespace antigrasp {
 
@@ -14,21 +14,22 @@ namespace antigrasp {
 // network values (positive inside; see ModelOptions::truncation). The DCGAN shape: a linear layer
 // to 2^3 nodes and transposed convolutions (kernel 4, stride 2; four at 32^3), batch norm and ReLU
 // between them. Channels double with every halving: 8 c at 2^3 of 32^3, 16 c at 2^3 of 64^3.
-class GeneratorImpl : public torch::nn::Module {
+class GeneratorImpl : public ShapeGenerator {
  public:
   explicit GeneratorImpl(const ModelOptions& options);  // weights of a fixed stream
-  torch::Tensor forward(const torch::Tensor& z);
+  torch::Tensor forward(const torch::Tensor& z) override;
 
   // The same grid folded as folding.h says: what the discriminator takes, and twice as fast.
-  torch::Tensor ForwardFolded(const torch::Tensor& z);  // [N, 8, h, h, h], h = r / 2 + 1
+  torch::Tensor ForwardFolded(const torch::Tensor& z) override;  // [N, 8, h, h, h], h = r / 2 + 1
 
   // Fresh weights. Transposed kernels start as trilinear interpolation of a random channel mix and
   // the output far outside, so that the first shapes are smooth and closed.
-  void Initialize(RngStream* rng);
+  void Initialize(RngStream* rng) override;
 
   // From here on forward() in training mode averages the batch statistics of all its calls with
   // equal weight: run some batches, then eval() samples with them.
-  void RestartStatistics();
+  bool HasStatistics() const override { return options_.batch_norm; }
+  void RestartStatistics() override;
 
   // Takes the function that `other` has in evaluation, with its batch statistics, into these
   // networks without batch norm, of equal shape and plain blocks: its scales go into the weights

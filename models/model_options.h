@@ -6,6 +6,12 @@
 
 namespace antigrasp {
 
+enum class ModelKind { kSngan, kSolids };
+constexpr auto ChoicesOf(ModelKind) {
+  return std::to_array<Choice<ModelKind>>(
+      {{ModelKind::kSngan, "sngan"}, {ModelKind::kSolids, "solids"}});
+}
+
 enum class PackAt { kInput, kFeatures };
 constexpr auto ChoicesOf(PackAt) {
   return std::to_array<Choice<PackAt>>(
@@ -32,6 +38,10 @@ constexpr auto ChoicesOf(Precision) {
 
 // Shape of the two networks. Everything a checkpoint needs to rebuild them.
 struct ModelOptions {
+  // kSngan: the paper's transposed convolutions; kSolids: a union of prisms, cylinders and cones
+  // whose measures are drawn (solid_generator.h).
+  ModelKind kind = ModelKind::kSngan;
+  int parts = 6;              // of a union
   int width = 8;              // c: channels of the generator's last hidden layer
   int latent = 200;           // z in R^200 (paper V-A)
   int resolution = 32;        // nodes along a side: 16, 32, 64 or 128

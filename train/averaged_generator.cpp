@@ -9,6 +9,7 @@
 
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/rng.h"
+#include "antigrasp/models/generator.h"
 
 namespace antigrasp {
 namespace {
@@ -50,13 +51,13 @@ torch::Tensor SampleLatents(const LatentMixture& latent, std::uint64_t seed, std
 
 AveragedGenerator::AveragedGenerator(const ModelOptions& options, std::uint64_t seed,
                                      torch::Device device)
-    : options_(options), seed_(seed), device_(device), network_(options) {
+    : options_(options), seed_(seed), device_(device), network_(MakeGenerator(options)) {
   network_->to(device_);
 }
 
-void AveragedGenerator::Follow(const Generator& source, double decay) {
+void AveragedGenerator::Follow(const ShapeGenerator& source, double decay) {
   torch::NoGradGuard no_grad;
-  const auto from = source->parameters();
+  const auto from = source.parameters();
   auto to = network_->parameters();
   if (decay > 0.0 && device_.is_cuda()) {  // few launches for many small tensors
     at::_foreach_mul_(to, decay);
@@ -76,7 +77,8 @@ void AveragedGenerator::Follow(const Generator& source, double decay) {
 
 void AveragedGenerator::TakeFolded(AveragedGenerator* other) {
   other->RefreshStatistics();
-  network_->TakeFolded(*other->network_);
+  dynamic_cast<GeneratorImpl&>(*network_).TakeFolded(
+      dynamic_cast<const GeneratorImpl&>(*other->network_));
 }
 
 torch::Tensor AveragedGenerator::Sample(const LatentMixture& latent, std::uint64_t seed,
@@ -93,7 +95,7 @@ torch::Tensor AveragedGenerator::Sample(const LatentMixture& latent, std::uint64
 void AveragedGenerator::RefreshStatistics() {
   if (!statistics_stale_) return;
   statistics_stale_ = false;
-  if (!options_.batch_norm) return;
+  if (!network_->HasStatistics()) return;
   const LatentMixture standard = StandardNormal(options_.latent);
   network_->RestartStatistics();
   network_->train();

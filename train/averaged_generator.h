@@ -3,8 +3,9 @@
 #include <torch/types.h>
 
 #include <cstdint>
+#include <memory>
 
-#include "antigrasp/models/generator.h"
+#include "antigrasp/models/shape_generator.h"
 #include "antigrasp/train/latent_mixture.h"
 
 namespace antigrasp {
@@ -26,7 +27,7 @@ class AveragedGenerator {
   AveragedGenerator(const ModelOptions& options, std::uint64_t seed, torch::Device device);
 
   // weights = decay * weights + (1 - decay) * source's. 0 copies.
-  void Follow(const Generator& source, double decay);
+  void Follow(const ShapeGenerator& source, double decay);
 
   // Takes the function of `other`, which has batch norm, where this one has none.
   void TakeFolded(AveragedGenerator* other);
@@ -35,7 +36,7 @@ class AveragedGenerator {
   torch::Tensor Sample(const LatentMixture& latent, std::uint64_t seed, std::int64_t first,
                        std::int64_t count);
 
-  const Generator& network() const { return network_; }
+  const std::shared_ptr<ShapeGenerator>& network() const { return network_; }
   void WeightsChanged() { statistics_stale_ = true; }  // by someone else
 
  private:
@@ -44,7 +45,7 @@ class AveragedGenerator {
   ModelOptions options_;
   std::uint64_t seed_;
   torch::Device device_;
-  Generator network_;
+  std::shared_ptr<ShapeGenerator> network_;
   bool statistics_stale_ = true;
 };
 

@@ -65,7 +65,7 @@ struct GanTrainer::Impl {
   GanOptions options;
   std::uint64_t seed;
   torch::Device device;
-  Generator generator;
+  std::shared_ptr<ShapeGenerator> generator;
   AveragedGenerator average;
   Discriminator discriminator;
   Adam adam_generator, adam_discriminator;
@@ -80,7 +80,7 @@ GanTrainer::Impl::Impl(const ModelOptions& model_options, const GanOptions& gan_
       options(gan_options),
       seed(base_seed),
       device(torch_device),
-      generator(model_options),
+      generator(MakeGenerator(model_options)),
       average(model_options, base_seed, torch_device),
       discriminator(model_options),
       adam_generator((generator->to(device), generator->parameters()), options.beta1,
@@ -231,7 +231,7 @@ void GanTrainer::BeginEpisode(int episode, std::int64_t iterations, bool restart
   t.iterations = iterations;
   t.step = 0;
   t.latent = StandardNormal(t.model.latent);
-  t.average.Follow(t.generator, /*decay=*/0.0);
+  t.average.Follow(*t.generator, /*decay=*/0.0);
 }
 
 void GanTrainer::BeginFixedEpisode(int episode, const LatentMixture& latent) {
@@ -260,7 +260,7 @@ StepReport GanTrainer::Step(const torch::Tensor& shapes) {
     t.UpdateDiscriminator(real, fake, &rng, &report);
   }
   t.UpdateGenerator(fake, &rng, &report);
-  t.average.Follow(t.generator, t.AverageDecay());
+  t.average.Follow(*t.generator, t.AverageDecay());
   ++t.step;
   return report;
 }

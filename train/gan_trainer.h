@@ -7,8 +7,8 @@
 #include <string>
 
 #include "antigrasp/models/discriminator.h"
-#include "antigrasp/models/generator.h"
 #include "antigrasp/models/named_tensors.h"
+#include "antigrasp/models/shape_generator.h"
 #include "antigrasp/train/gan_options.h"
 #include "antigrasp/train/latent_mixture.h"
 

@@ -11,6 +11,10 @@ namespace antigrasp {
 namespace {
 
 void CheckThatItFolds(const ModelOptions& model, const std::string& origin) {
+  if (model.kind != ModelKind::kSngan) {
+    throw InputError("--fold-batch-norm: networks with model.kind = " + ChoiceName(model.kind),
+                     origin, "those of model.kind = sngan, which have batch normalisation");
+  }
   if (model.batch_norm && model.block == Block::kPlain) return;
   throw InputError("--fold-batch-norm: networks with model.batch_norm = " +
                        std::string(model.batch_norm ? "true" : "false") +

@@ -117,7 +117,8 @@ TEST(ModelOptions, EachNameSetsItsOwnField) {
        {"model.width=3", "model.latent=4", "model.resolution=32", "model.spectral_norm=false",
         "model.pack=5", "model.pack_at=\"features\"", "model.width_d=6",
         "model.block=\"residual_generator\"", "model.edge_gain=0.7", "model.squash=\"tanh\"",
-        "model.truncation=0.8", "model.raw_scale=0.9", "model.precision=\"bfloat16\""}) {
+        "model.truncation=0.8", "model.raw_scale=0.9", "model.precision=\"bfloat16\"",
+        "model.kind=\"solids\"", "model.parts=7"}) {
     table.ApplyOverride(setting);
   }
   EXPECT_EQ(options.width, 3);
@@ -133,11 +134,13 @@ TEST(ModelOptions, EachNameSetsItsOwnField) {
   EXPECT_EQ(options.truncation, 0.8);
   EXPECT_EQ(options.raw_scale, 0.9);
   EXPECT_EQ(options.precision, Precision::kBfloat16);
+  EXPECT_EQ(options.kind, ModelKind::kSolids);
+  EXPECT_EQ(options.parts, 7);
   table.ApplyOverride("model.batch_norm=false");
   EXPECT_TRUE(!options.batch_norm && options.output_blur);
   table.ApplyOverride("model.output_blur=false");
   EXPECT_FALSE(options.output_blur);
-  EXPECT_EQ(table.options().size(), 15U);
+  EXPECT_EQ(table.options().size(), 17U);
 }
 
 }  // namespace

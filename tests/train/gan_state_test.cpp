@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "antigrasp/models/generator.h"
 #include "antigrasp/models/random_tensor.h"
 #include "antigrasp/train/averaged_generator.h"
 #include "antigrasp/train/gan_trainer.h"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "antigrasp/models/folding.h"
+#include "antigrasp/models/generator.h"
 #include "antigrasp/models/random_tensor.h"
 #include "antigrasp/train/augment.h"
 #include "antigrasp/train/gan_trainer.h"

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <torch/nn/module.h>
+
+#include <memory>
+
+#include "antigrasp/core/rng.h"
+#include "antigrasp/models/model_options.h"
+
+namespace antigrasp {
+
+// What turns noise into grids: z [N, latent] -> [N, 1, r, r, r], network values (positive inside;
+// see ModelOptions::truncation). model.kind says which: generator.h, solid_generator.h.
+class ShapeGenerator : public torch::nn::Module {
+ public:
+  virtual torch::Tensor forward(const torch::Tensor& z) = 0;
+
+  // The same grids folded as folding.h says: what the discriminator takes.
+  virtual torch::Tensor ForwardFolded(const torch::Tensor& z) = 0;  // [N, 8, h, h, h]
+
+  virtual void Initialize(RngStream* rng) = 0;  // fresh weights
+
+  // Whether evaluation uses averages of batches, and the beginning of such an average: from then on
+  // every call of forward() in training mode counts, with equal weight.
+  virtual bool HasStatistics() const { return false; }
+  virtual void RestartStatistics() {}
+};
+
+std::shared_ptr<ShapeGenerator> MakeGenerator(const ModelOptions& options);
+
+}  // namespace antigrasp

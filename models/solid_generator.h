@@ -1,0 +1,33 @@
+#pragma once
+
+#include <torch/nn/modules/linear.h>
+
+#include <vector>
+
+#include "antigrasp/models/shape_generator.h"
+
+namespace antigrasp {
+
+// G : z -> the union of model.parts solids (solid_field.h), as CvxNet and BSP-Net make shapes of
+// half-spaces (Deng et al.; Chen et al.; both CVPR 2020). Four linear layers, 32 model.width units
+// wide, draw where each lies, how large it is and of what form: flat faces, straight edges and
+// round walls are the form's, not learnt node by node. No convolutions, batch norm or blur.
+class SolidGeneratorImpl : public ShapeGenerator {
+ public:
+  explicit SolidGeneratorImpl(const ModelOptions& options);  // weights of a fixed stream
+  torch::Tensor forward(const torch::Tensor& z) override;
+  torch::Tensor ForwardFolded(const torch::Tensor& z) override;
+
+  // Fresh weights: parts of middle size about the centre, each z another union.
+  void Initialize(RngStream* rng) override;
+
+  // What is drawn: z [N, latent] -> [N, parts, kPartColumns], usable as SolidField takes them.
+  torch::Tensor Parts(const torch::Tensor& z);
+
+ private:
+  ModelOptions options_;
+  std::vector<torch::nn::Linear> layers_;
+};
+TORCH_MODULE(SolidGenerator);
+
+}  // namespace antigrasp

@@ -1,0 +1,114 @@
+#include "antigrasp/models/solid_generator.h"
+
+#include <gtest/gtest.h>
+#include <torch/types.h>
+
+#include "antigrasp/models/folding.h"
+#include "antigrasp/models/random_tensor.h"
+#include "antigrasp/models/sdf_values.h"
+#include "antigrasp/models/solid_field.h"
+
+namespace antigrasp {
+namespace {
+
+ModelOptions Solids() {
+  ModelOptions options;
+  options.kind = ModelKind::kSolids;
+  options.parts = 3;
+  options.width = 2;
+  options.latent = 5;
+  return options;
+}
+
+torch::Tensor Noise(std::int64_t count, double sd) {
+  RngStream rng(3, "solid_generator_test");
+  return NormalTensor({count, 5}, sd, &rng);
+}
+
+TEST(SolidGenerator, DrawsTheUnionOfItsPartsAsNetworkValues) {
+  const ModelOptions options = Solids();
+  SolidGenerator generator(options);
+  const torch::Tensor z = Noise(4, 1.0), grids = generator(z);
+  ASSERT_EQ(grids.sizes(), (std::vector<std::int64_t>{4, 1, 32, 32, 32}));
+  EXPECT_TRUE(torch::equal(
+      grids, NetworkValues(SolidField(generator->Parts(z), options.resolution), options)));
+  EXPECT_TRUE(torch::equal(generator->ForwardFolded(z), Fold(grids)));
+}
+
+TEST(SolidGenerator, FirstShapesAreSolidAndOfManyForms) {
+  ModelOptions options = Solids();
+  options.width = 8;
+  SolidGenerator generator(options);
+  const torch::Tensor inside = (generator(Noise(16, 1.0)) > 0).to(torch::kFloat).flatten(1).mean(1);
+  EXPECT_GT(inside.min().item<double>(), 0.01);
+  EXPECT_LT(inside.max().item<double>(), 0.7);
+  EXPECT_GT(inside.std().item<double>(), 0.01);
+}
+
+TEST(SolidGenerator, PartsAreUsableWhateverIsDrawn) {
+  SolidGenerator generator(Solids());
+  for (const double sd : {1.0, 1e4}) {
+    const torch::Tensor parts = generator->Parts(Noise(64, sd)).flatten(0, 1);
+    EXPECT_TRUE(torch::isfinite(parts).all().item<bool>());
+    const torch::Tensor axes = parts.narrow(1, kPartAxes, 9).view({-1, 3, 3});
+    const torch::Tensor turned_back = torch::matmul(axes, axes.transpose(1, 2));
+    EXPECT_LT((turned_back - torch::eye(3)).abs().max().item<double>(), 1e-4);
+    const torch::Tensor half = parts.narrow(1, kPartHalf, 3);
+    EXPECT_GT(half.min().item<double>(), 0.0299);  // two cells of 32^3 thick
+    const torch::Tensor round = parts.select(1, kPartRound);
+    EXPECT_GE(round.min().item<double>(), 0.0);
+    EXPECT_LE(round.max().item<double>(), 1.0);
+    const torch::Tensor lean = parts.narrow(1, kPartLean, 2).abs() * half.narrow(1, 2, 1);
+    EXPECT_GT((half.narrow(1, 0, 2) - lean).min().item<double>(), 0.0299);  // nor its narrow end
+    EXPECT_TRUE((parts.select(1, kPartFillet) <= 0.5 * half.amin(1) + 1e-7).all().item<bool>());
+  }
+}
+
+TEST(SolidGenerator, NothingTouchesTheBorderWhateverIsDrawn) {
+  ModelOptions options = Solids();
+  SolidGenerator generator(options);
+  for (const double sd : {1.0, 3.0, 1e4}) {
+    const torch::Tensor grids = generator(Noise(64, sd));
+    for (int axis = 2; axis < 5; ++axis) {
+      for (const int side : {0, 31}) {
+        EXPECT_LT(grids.select(axis, side).max().item<double>(), 0.0);
+      }
+    }
+  }
+}
+
+TEST(SolidGenerator, SlightLeansAreUprightAndSlightlyUnequalSidesEqual) {
+  SolidGenerator generator(Solids());
+  torch::NoGradGuard no_grad;
+  for (torch::Tensor& parameter : generator->parameters()) parameter.zero_();
+  auto bias = generator->named_parameters()["layer4.bias"].view({3, 16});
+  bias.select(1, 4).fill_(0.19);   // sides
+  bias.select(1, 13).fill_(0.24);  // lean along u
+  bias.select(1, 14).fill_(-0.4);  // lean along v, the other way
+  const torch::Tensor parts = generator->Parts(Noise(1, 1.0))[0];
+  EXPECT_TRUE(torch::equal(parts.select(1, kPartHalf), parts.select(1, kPartHalf + 1)));
+  EXPECT_EQ(parts.select(1, kPartLean).abs().max().item<double>(), 0.0);
+  EXPECT_LT(parts.select(1, kPartLean + 1).max().item<double>(), -0.01);
+}
+
+TEST(SolidGenerator, WeightsDependOnTheStreamOnly) {
+  SolidGenerator a(Solids()), b(Solids());
+  RngStream one(1, "a"), same(1, "a"), other(2, "a");
+  a->Initialize(&one);
+  b->Initialize(&same);
+  EXPECT_TRUE(torch::equal(a(Noise(1, 1.0)), b(Noise(1, 1.0))));
+  b->Initialize(&other);
+  EXPECT_FALSE(torch::equal(a(Noise(1, 1.0)), b(Noise(1, 1.0))));
+}
+
+TEST(ShapeGenerator, IsOfTheKindThatTheModelNames) {
+  EXPECT_NE(dynamic_cast<SolidGeneratorImpl*>(MakeGenerator(Solids()).get()), nullptr);
+  ModelOptions options = Solids();
+  options.kind = ModelKind::kSngan;
+  EXPECT_EQ(dynamic_cast<SolidGeneratorImpl*>(MakeGenerator(options).get()), nullptr);
+  EXPECT_TRUE(MakeGenerator(options)->HasStatistics());
+  EXPECT_FALSE(MakeGenerator(Solids())->HasStatistics());
+}
+
+}  // namespace
+}  // namespace antigrasp
