@@ -14,8 +14,17 @@ namespace antigrasp {
 namespace {
 
 // What the last layer says of a part; numbers of about 1, any are allowed.
-enum Raw { kPlace = 0, kSize = 3, kAxis = 6, kSide = 9, kRound = 12, kLean = 13, kEnds = 15 };
-constexpr std::int64_t kRaws = 16;
+enum Raw {
+  kPlace = 0,
+  kSize = 3,
+  kAxis = 6,
+  kSide = 9,
+  kGrip = 12,
+  kRound = 15,
+  kLean = 16,
+  kEnds = 18
+};
+constexpr std::int64_t kRaws = 19;
 
 constexpr int kUnitsPerWidth = 32;
 constexpr double kLastGain = 0.7, kLastBias = 0.5;  // deviations of what the last layer begins with
@@ -76,6 +85,30 @@ torch::Tensor Fitting(const torch::Tensor& sizes, const torch::Tensor& axes,
   return least + sizes * fit.amin(-1, true).clamp_max(1.0);
 }
 
+// A point inside each part, [N, M, 3] from its centre along the cube's axes: `share` [N, M, 3] of
+// what it reaches. Within 0.7 of the half sizes along u and v it is inside a disc as well.
+torch::Tensor PointInside(const torch::Tensor& share, const torch::Tensor& half,
+                          const torch::Tensor& slope, const torch::Tensor& axes) {
+  const torch::Tensor w = 0.9 * share.narrow(2, 2, 1) * half.narrow(2, 2, 1);
+  const torch::Tensor section = half.narrow(2, 0, 2) + slope * w;
+  const torch::Tensor point = torch::cat({0.7 * share.narrow(2, 0, 2) * section, w}, 2);
+  return torch::matmul(axes.transpose(2, 3), point.unsqueeze(-1)).squeeze(-1);
+}
+
+// Where parts lie, [N, M, 3]: the first at its place, each of the others so that a point inside it
+// meets a point inside the one before, as far as the cube has room. A chain: body, shoulder, neck
+// and cap, or a graft, what it is on and another graft.
+torch::Tensor Chained(const torch::Tensor& first, const torch::Tensor& joint,
+                      const torch::Tensor& grip, const torch::Tensor& room) {
+  std::vector<torch::Tensor> places = {first};
+  for (std::int64_t k = 1; k < joint.size(1); ++k) {
+    const torch::Tensor most = room.select(1, k);
+    const torch::Tensor place = places.back() + joint.select(1, k - 1) - grip.select(1, k);
+    places.push_back(torch::minimum(torch::maximum(place, -most), most));
+  }
+  return torch::stack(places, 1);
+}
+
 }  // namespace
 
 SolidGeneratorImpl::SolidGeneratorImpl(const ModelOptions& options) : options_(options) {
@@ -116,9 +149,13 @@ torch::Tensor SolidGeneratorImpl::Parts(const torch::Tensor& z) {
   const torch::Tensor axes = Axes(raw(kAxis, 3), raw(kSide, 3));
   const torch::Tensor lean = kSteepest * torch::tanh(torch::softshrink(raw(kLean, 2), kUpright));
   const torch::Tensor half = Fitting(Sizes(raw(kSize, 3)), axes, lean);
-  const torch::Tensor room = kRoom - Reach(half, axes, lean);
-  const torch::Tensor place = room * torch::tanh(kPlaceScale * raw(kPlace, 3) / room);
   const torch::Tensor slope = lean * (half.narrow(2, 0, 2) - kLeastHalf) / half.narrow(2, 2, 1);
+  const torch::Tensor room = kRoom - Reach(half, axes, lean);
+  const torch::Tensor raw_place = raw(kPlace, 3), first_room = room.select(1, 0);
+  const torch::Tensor place =
+      Chained(first_room * torch::tanh(kPlaceScale * raw_place.select(1, 0) / first_room),
+              PointInside(torch::tanh(raw_place.roll(-1, 1)), half, slope, axes),
+              PointInside(torch::tanh(raw(kGrip, 3)), half, slope, axes), room);
   return torch::cat({axes.flatten(2), torch::matmul(axes, place.unsqueeze(-1)).squeeze(-1), half,
                      Share(raw(kRound, 1) + kRoundBias), slope,
                      0.5 * half.amin(-1, true) * Share(raw(kEnds, 1) + kEndsBias),
