@@ -6,6 +6,7 @@
 #include <string>
 
 #include "antigrasp/models/folding.h"
+#include "antigrasp/models/largest_piece.h"
 #include "antigrasp/models/random_tensor.h"
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/models/solid_field.h"
@@ -164,7 +165,8 @@ torch::Tensor SolidGeneratorImpl::Parts(const torch::Tensor& z) {
 }
 
 torch::Tensor SolidGeneratorImpl::forward(const torch::Tensor& z) {
-  return NetworkValues(SolidField(Parts(z), options_.resolution), options_);
+  const torch::Tensor values = NetworkValues(SolidField(Parts(z), options_.resolution), options_);
+  return is_training() ? values : LargestPiece(values.cpu()).to(values.device());
 }
 
 torch::Tensor SolidGeneratorImpl::ForwardFolded(const torch::Tensor& z) { return Fold(forward(z)); }

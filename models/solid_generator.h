@@ -12,6 +12,7 @@ namespace antigrasp {
 // half-spaces (Deng et al.; Chen et al.; both CVPR 2020). Four linear layers, 32 model.width units
 // wide, draw where each lies, how large it is and of what form: flat faces, straight edges and
 // round walls are the form's, not learnt node by node. No convolutions, batch norm or blur.
+// In evaluation what does not hang together with the largest piece is left out (largest_piece.h).
 class SolidGeneratorImpl : public ShapeGenerator {
  public:
   explicit SolidGeneratorImpl(const ModelOptions& options);  // weights of a fixed stream

@@ -4,6 +4,7 @@
 #include <torch/types.h>
 
 #include "antigrasp/models/folding.h"
+#include "antigrasp/models/largest_piece.h"
 #include "antigrasp/models/random_tensor.h"
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/models/solid_field.h"
@@ -92,6 +93,15 @@ TEST(SolidGenerator, EveryPartMeetsTheOneBefore) {
     // The border pushes a few off.
     EXPECT_LE(apart, sd == 1.0 ? 2 : 12) << "of 192";
   }
+}
+
+TEST(SolidGenerator, InEvaluationWhatDoesNotHangTogetherIsLeftOut) {
+  SolidGenerator generator(Solids());
+  const torch::Tensor z = Noise(64, 1.0), drawn = generator(z);
+  generator->eval();
+  const torch::Tensor kept = generator(z);
+  EXPECT_TRUE(torch::equal(kept, LargestPiece(drawn)));
+  EXPECT_FALSE(torch::equal(kept, drawn)) << "no shape of 64 had a second piece";
 }
 
 TEST(SolidGenerator, SlightLeansAreUprightAndSlightlyUnequalSidesEqual) {
