@@ -229,6 +229,7 @@ PhysicsTrialReport TryInPhysics(const PhysicsTrialRequest& request, const Metric
   Call(request, objects, metric, options, observer, &results, &report).Run(sides);
   if (!results.finished() && results.added() <= results.done().size()) throw Interrupted();
   results.Commit();
+  report.interrupted = !results.finished();  // nothing is missing when it was the last one
   const bool kept = !request.out.empty();
   if (kept) {
     report.text +=

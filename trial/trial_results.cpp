@@ -67,8 +67,17 @@ TrialResults::TrialResults(const PhysicsTrialRequest& request, const Protocol& p
   if (out_.empty()) return;
   const auto begun = request.overwrite ? std::nullopt : ReadUnfinished(out_);
   if (begun) {
-    if (begun->of != of || begun->replays != unfinished_.replays ||
-        begun->program != unfinished_.program ||
+    if (begun->program != unfinished_.program) {
+      throw InputError(
+          "holds an interrupted trial of antigrasp " + begun->program, request.out,
+          "that version (this is " + unfinished_.program + "), a new folder, or --overwrite");
+    }
+    if (begun->of != of) {
+      throw InputError("holds an interrupted trial of other objects", request.out,
+                       std::to_string(begun->of) + " trials of an object, not " +
+                           std::to_string(of) + ", a new folder, or --overwrite");
+    }
+    if (begun->replays != unfinished_.replays ||
         ConstantsOf(ReadFile(out_ / kConstants)) != constants_) {
       throw InputError("holds an interrupted trial of other settings", request.out,
                        "the settings that it began with, a new folder, or --overwrite");

@@ -131,6 +131,29 @@ TEST_F(ObjectTrials, AnInterruptedFolderIsNotGoneOnWithByAnotherCall) {
   EXPECT_NE(WhyNot("t").find("holds trials.csv already"), std::string::npos) << WhyNot("t");
 }
 
+TEST_F(ObjectTrials, AnInterruptedFolderOfFewerObjectsOrAnotherProgramIsCalledThat) {
+  Try("t", 3);
+  WriteMesh(folder_ / "after/99.stl", shapes::Box({30.0, 36.0, 46.0}));
+  WriteMesh(folder_ / "before/99.stl", shapes::Box({30.0, 36.0, 46.0}));
+  EXPECT_NE(WhyNot("t").find("holds an interrupted trial of other objects"), std::string::npos)
+      << WhyNot("t");
+  std::filesystem::remove(folder_ / "after/99.stl");
+  std::string toml = ReadFile(folder_ / "t/trial.toml");
+  const std::size_t at = toml.find("program = ");
+  toml.replace(at, toml.find('\n', at) - at, "program = '0.0 abc'");
+  WriteFileAtomic(folder_ / "t/trial.toml", toml);
+  EXPECT_NE(WhyNot("t").find("an interrupted trial of antigrasp 0.0 abc"), std::string::npos)
+      << WhyNot("t");
+}
+
+TEST_F(ObjectTrials, ACallThatIsStoppedInItsLastTrialIsFinished) {
+  const PhysicsTrialReport whole = Try("whole");
+  const int all = static_cast<int>(shapes::CsvRows(folder_ / "whole/trials.csv").size());
+  const PhysicsTrialReport last = Try("last", all);
+  EXPECT_FALSE(last.interrupted) << last.text;
+  EXPECT_TRUE(shapes::FileContents(folder_ / "whole") == shapes::FileContents(folder_ / "last"));
+}
+
 TEST_F(ObjectTrials, WithoutAFolderAnInterruptedCallTellsWhatItTried) {
   const PhysicsTrialReport report = Try("", 3);
   EXPECT_TRUE(report.interrupted);
