@@ -18,8 +18,6 @@ ModelOptions ModelOf(const std::string& networks) {
 
 }  // namespace
 
-// --set takes every word up to the next option, so also a configuration that stands behind the
-// settings: the word that is no KEY=VALUE.
 void TakeConfigFromSettings(RunRequest* request) {
   const auto config = std::find_if(request->overrides.begin(), request->overrides.end(),
                                    [](const std::string& word) {

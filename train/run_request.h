@@ -23,8 +23,8 @@ struct RunRequest {
   bool from_scratch = false;  // no networks to begin with
 };
 
-// Takes a configuration that stands behind settings for one: the first of the overrides that is no
-// KEY=VALUE, when there is no other configuration.
+// --set takes every word up to the next option, so also a configuration that stands behind the
+// settings: the first of the overrides that is no KEY=VALUE becomes it, when there is no other.
 void TakeConfigFromSettings(RunRequest* request);
 
 // The settings that this comes to. InputError for what is unknown, out of range or does not fit.
