@@ -24,6 +24,16 @@ TEST(LargestPiece, ANodeThatOnlyMeetsTheShapeAtACornerIsLeftOut) {
   EXPECT_EQ(values[0][0][2][2][2].item<float>(), 0.125F) << "the values that were given stay";
 }
 
+TEST(LargestPiece, RowsEndWhereTheyEnd) {
+  torch::Tensor values = Outside().narrow(0, 0, 1);
+  for (const int y : {0, 1, 2}) values[0][0][1][y][0] = 0.25;
+  values[0][0][1][0][3] = values[0][0][1][1][3] = 0.25;  // before the next row's beginning
+  const torch::Tensor kept = LargestPiece(values);
+  EXPECT_EQ(kept[0][0][1][0][3].item<float>(), -0.25F);
+  EXPECT_EQ(kept[0][0][1][1][3].item<float>(), -0.25F);
+  EXPECT_EQ((kept > 0).sum().item<int>(), 3);
+}
+
 TEST(LargestPiece, OfEqualPiecesTheFirstStaysAndOneOrNonePieceAsItIs) {
   torch::Tensor values = Outside();
   values[0][0][1][1][3] = values[0][0][3][0][0] = 0.25;

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <torch/types.h>
 
+#include <cmath>
+
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/largest_piece.h"
 #include "antigrasp/models/random_tensor.h"
@@ -92,6 +94,24 @@ TEST(SolidGenerator, EveryPartMeetsTheOneBefore) {
     }
     // The border pushes a few off.
     EXPECT_LE(apart, sd == 1.0 ? 2 : 12) << "of 192";
+  }
+}
+
+TEST(SolidGenerator, NeedlesHangEndToEndWhereTheirJointsAreAtTheirEnds) {
+  SolidGenerator generator(Solids());
+  torch::NoGradGuard no_grad;
+  for (torch::Tensor& parameter : generator->parameters()) parameter.zero_();
+  auto bias = generator->named_parameters()["layer4.bias"].view({3, 19});
+  bias.select(1, 3).fill_(-4.0);                    // thin along u and v
+  bias.select(1, 5).fill_(-2.0);                    // long along w
+  bias.select(1, 2).narrow(0, 1, 2).fill_(50.0);    // on the upper end of the one before,
+  bias.select(1, 14).narrow(0, 1, 2).fill_(-50.0);  // by the lower end
+  const torch::Tensor parts = generator->Parts(Noise(1, 1.0))[0];
+  const double half = parts[0][kPartHalf + 2].item<double>();
+  EXPECT_NEAR(half, 0.03 + 0.18 * std::exp(-1.0), 1e-6);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(parts[k][kPartCentre + 2].item<double>(), 2.0 * 0.9 * half * k, 1e-6) << k;
+    EXPECT_NEAR(parts[k][kPartCentre].item<double>(), 0.0, 1e-6) << k;
   }
 }
 
