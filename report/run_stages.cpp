@@ -25,6 +25,7 @@ ReportStage NewStage(int episode, bool control) {
   stage.control = control;
   stage.graspability = {kNaN, kNaN, 0};
   stage.elite_threshold = stage.coverage = stage.nna = stage.duplicates = stage.diversity = kNaN;
+  stage.flat = stage.crease = kNaN;
   return stage;
 }
 
@@ -41,6 +42,8 @@ void FillFromStatistics(const StageStatistics& row, ReportStage* stage) {
   stage->nna = row.nna;
   stage->duplicates = row.duplicates;
   stage->diversity = row.diversity;
+  stage->flat = row.flat;
+  stage->crease = row.crease;
 }
 
 std::vector<double> Values(const std::vector<ScoreRow>& rows) {

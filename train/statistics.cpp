@@ -120,14 +120,14 @@ std::string StatisticsTable(const std::vector<StageStatistics>& rows,
                             const std::vector<StageStatistics>& control) {
   std::vector<std::vector<std::string>> cells = {{"episode", "samples", "rejected", "graspability",
                                                   "/ prior", "/ episode 0", "/ control", "coverage",
-                                                  "near-duplicates"}};
+                                                  "near-duplicates", "flat edges"}};
   for (const ComparedStage& stage : Compare(rows, control)) {
     const StageStatistics& row = *stage.row;
     const std::string episode = row.stage < 0 ? "prior set" : std::to_string(row.stage);
     cells.push_back({(stage.control ? "control " : "") + episode, std::to_string(row.samples),
                      RejectedText(row), MeanText(row.graspability, 5), RatioText(stage.by_prior),
                      RatioText(stage.by_first), RatioText(stage.by_control), Share(row.coverage),
-                     Share(row.duplicates)});
+                     Share(row.duplicates), Share(row.flat)});
   }
   return Aligned(cells);
 }

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/csv_reader.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
 #include "antigrasp/trial/physics_trial.h"
@@ -62,6 +63,20 @@ void Join(const TrialJudge& judge, const std::string& where, TrialJudge* all) {
               where);
 }
 
+// How far an interrupted call came; "" of one that ended.
+std::string HowFar(const std::string& folder) {
+  const auto unfinished = ReadUnfinished(folder);
+  if (!unfinished) return "";
+  return "interrupted after " + std::to_string(unfinished->done) + " of " +
+         std::to_string(unfinished->of) + " trials of an object";
+}
+
+bool HasMeans(const std::string& folder) {
+  const std::filesystem::path path = std::filesystem::path(folder) / "means.csv";
+  RequireFile(path, "means.csv of antigrasp trial --out FOLDER");
+  return CsvReader(path).Next();
+}
+
 }  // namespace
 
 TriedFolders ReadTrialFolders(const std::vector<std::string>& folders) {
@@ -69,7 +84,10 @@ TriedFolders ReadTrialFolders(const std::vector<std::string>& folders) {
   std::map<std::tuple<std::string, double, std::string>, std::string> tried;  // in which folder
   for (const std::string& folder : folders) {
     const std::filesystem::path path = std::filesystem::path(folder) / "means.csv";
-    RequireFile(path, "means.csv of antigrasp trial --out FOLDER");
+    if (const std::string how_far = HowFar(folder); !HasMeans(folder) && !how_far.empty()) {
+      throw InputError(how_far + ", before there was a mean", folder,
+                       "the same call of antigrasp trial again, to its end");
+    }
     std::vector<TrialMean> rows = ReadTrialMeans(path);
     TrialJudge judge = ReadJudge(std::filesystem::path(folder) / "trial.toml");
     judge.protocol = rows.front().protocol;
@@ -95,14 +113,15 @@ TriedFolders ReadTrialFolders(const std::vector<std::string>& folders) {
 }
 
 std::string TrialFolderText(const std::string& folder) {
+  const std::string how_far = HowFar(folder);
+  if (!how_far.empty() && !HasMeans(folder)) {
+    return folder + ": trials, " + how_far + "; no means yet\n";
+  }
   const TriedFolders tried = ReadTrialFolders({folder});
   const TrialJudge& judge = tried.judge;
   std::string text = folder + ": trials, " + judge.protocol + ", fingertip " + judge.tip + ", " +
                      judge.engine + "\n";
-  if (const auto unfinished = ReadUnfinished(folder)) {
-    text += "  interrupted after " + std::to_string(unfinished->done) + " of " +
-            std::to_string(unfinished->of) + " trials of an object\n";
-  }
+  if (!how_far.empty()) text += "  " + how_far + "\n";
   for (const TrialMean& row : tried.rows) {
     text += "  friction " + FormatDouble(row.friction) + ", " + row.masses + " mass, " + row.stage +
             ": held " + MeanText(row.held, 1) + " % (" + std::to_string(row.held.count) +

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 const ResultFiles kTrialFiles = {
     "trials.csv", {"executions.csv", "means.csv", "replays.json", "trial.toml"}, {}};
-constexpr const char* kConstants = "trial.toml";
+constexpr const char *kConstants = "trial.toml", *kExecutions = "executions.csv",
+                     *kReplays = "replays.json";
 constexpr const char* kUnfinished = "\n[unfinished]\n";  // behind them
 
 void Bind(OptionTable* table, Unfinished* unfinished) {
@@ -24,14 +25,16 @@ void Bind(OptionTable* table, Unfinished* unfinished) {
   table->Add("unfinished.of", &unfinished->of, "trials that the call has to make");
   table->Add("unfinished.meshes", &unfinished->meshes, "hash of those tried");
   table->Add("unfinished.replays", &unfinished->replays, "of an object");
+  table->Add("unfinished.tables", &unfinished->tables, "hash of the files beside this one");
   table->Add("unfinished.program", &unfinished->program, {}, "that made them");
 }
 
 // The part of a saved trial.toml that a finished one has.
 std::string ConstantsOf(const std::string& toml) { return toml.substr(0, toml.find(kUnfinished)); }
 
-// In pieces: it may be larger than memory.
-void AppendFile(const fs::path& from, std::uintmax_t bytes, AtomicFile* to) {
+// In pieces: a file may be larger than memory.
+template <class Take>
+void ReadPieces(const fs::path& from, std::uintmax_t bytes, const Take& take) {
   std::ifstream in(from, std::ios::binary);
   std::string piece;
   for (std::uintmax_t left = bytes; left > 0; left -= piece.size()) {
@@ -39,8 +42,23 @@ void AppendFile(const fs::path& from, std::uintmax_t bytes, AtomicFile* to) {
     if (!in.read(piece.data(), std::ssize(piece))) {
       throw InputError("is cut short", from.string(), "what an interrupted call wrote");
     }
-    to->Append(piece);
+    take(piece);
   }
+}
+
+std::uint64_t TablesHash(const std::string& trials, const fs::path& executions,
+                         const fs::path& replays) {
+  std::uint64_t hash = HashOf(trials);
+  for (const fs::path& file : {executions, replays}) {
+    ReadPieces(file, fs::file_size(file), [&](const std::string& piece) {
+      hash = HashOf(std::to_string(hash) + " " + piece);
+    });
+  }
+  return hash >> 1;  // TOML's own
+}
+
+void AppendFile(const fs::path& from, std::uintmax_t bytes, AtomicFile* to) {
+  ReadPieces(from, bytes, [&](const std::string& piece) { to->Append(piece); });
 }
 
 }  // namespace
@@ -61,8 +79,9 @@ TrialResults::TrialResults(const PhysicsTrialRequest& request, const Protocol& p
                            const ObjectSource& objects, std::string constants, std::uint64_t of)
     : out_(request.out),
       constants_(std::move(constants)),
-      unfinished_{0, of, 0, static_cast<std::uint64_t>(request.replays),
-                  ProgramVersion() + " " + ProgramCommit()},
+      unfinished_{0, of,
+                  0, static_cast<std::uint64_t>(request.replays),
+                  0, ProgramVersion() + " " + ProgramCommit()},
       trials_(protocol) {
   if (out_.empty()) return;
   const auto begun = request.overwrite ? std::nullopt : ReadUnfinished(out_);
@@ -82,18 +101,27 @@ TrialResults::TrialResults(const PhysicsTrialRequest& request, const Protocol& p
       throw InputError("holds an interrupted trial of other settings", request.out,
                        "the settings that it began with, a new folder, or --overwrite");
     }
-    done_ = ReadTrialRows(out_ / kTrialFiles.table, protocol);
+    const fs::path trials = out_ / kTrialFiles.table, executions = out_ / kExecutions,
+                   replays = out_ / kReplays;
+    for (const fs::path& file : {trials, executions, replays}) {
+      RequireFile(file, "as the trial left it");
+    }
+    if (TablesHash(ReadFile(trials), executions, replays) != begun->tables) {
+      throw InputError("holds an interrupted trial whose tables were changed", request.out,
+                       "trials.csv, executions.csv and replays.json as the trial left them, a new "
+                       "folder, or --overwrite");
+    }
+    done_ = ReadTrialRows(trials, protocol);
     meshes_of_done_ = begun->meshes;
   }
   folder_.emplace(out_, kTrialFiles, objects, request.overwrite || begun.has_value());
-  executions_file_.emplace(folder_->path() / "executions.csv");
-  replays_file_.emplace(folder_->path() / "replays.json");
+  executions_file_.emplace(folder_->path() / kExecutions);
+  replays_file_.emplace(folder_->path() / kReplays);
   if (begun) GoOn();
 }
 
 void TrialResults::GoOn() {
-  const fs::path executions = out_ / "executions.csv", replays = out_ / "replays.json";
-  for (const fs::path& file : {executions, replays}) RequireFile(file, "as the trial left it");
+  const fs::path executions = out_ / kExecutions, replays = out_ / kReplays;
   AppendFile(executions, fs::file_size(executions), &*executions_file_);
   executions_.TakeText();  // the header is there
   const std::uintmax_t size = fs::file_size(replays),
@@ -128,6 +156,8 @@ void TrialResults::Commit() {
   WriteFileAtomic(folder_->path() / "means.csv", means_.text());
   std::string toml = constants_;
   if (!finished()) {
+    unfinished_.tables =
+        TablesHash(trials_.text(), folder_->path() / kExecutions, folder_->path() / kReplays);
     OptionTable table;
     Bind(&table, &unfinished_);
     toml += "\n" + table.Dump();

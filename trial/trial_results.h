@@ -19,6 +19,7 @@ struct Unfinished {
   std::uint64_t done = 0, of = 0;
   std::uint64_t meshes = 0;   // a hash of what was tried
   std::uint64_t replays = 0;  // of an object, as asked for
+  std::uint64_t tables = 0;   // a hash of the files that it left
   std::string program;        // which made them
 };
 // Of a folder that a call of `trial` left; nullopt: there is none, or it is finished.

@@ -92,6 +92,7 @@ struct ReportStage {
   std::vector<std::pair<std::string, int>> statuses;
   MeanInterval graspability;
   double elite_threshold = 0.0, coverage = 0.0, nna = 0.0, duplicates = 0.0, diversity = 0.0;
+  double flat = 0.0, crease = 0.0;            // shares of edge length
   std::optional<std::vector<double>> scores;  // of the usable objects
 };
 

@@ -64,6 +64,8 @@ Json StageJson(const ReportStage& stage) {
   json["nna"] = stage.nna;
   json["duplicates"] = stage.duplicates;
   json["diversity"] = stage.diversity;
+  json["flat_share"] = stage.flat;
+  json["crease_share"] = stage.crease;
   json["scores"] = stage.scores ? RoundedJson(*stage.scores) : Json();
   return json;
 }

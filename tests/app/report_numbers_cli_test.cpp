@@ -102,9 +102,10 @@ TEST(ReportNumbersCli, EveryColumnOfARunsTablesBecomesItsNumber) {
   const std::string head =
       "stage,samples,ok,non_finite,empty,touches_border,gaps,non_manifold,non_orientable,"
       "self_intersecting,disjoint,scored,without_grasps,graspability,half_width_95,count,"
-      "elite_threshold,coverage,nna,duplicates,diversity\n";
+      "elite_threshold,coverage,nna,duplicates,diversity,flat_share,crease_share\n";
   const auto row = [](const std::string& stage, const std::string& mean) {
-    return stage + ",60,50,0,0,1,0,0,0,2,7,49,3," + mean + ",0.02,48,0.19,0.51,0.62,0.13,0.94\n";
+    return stage + ",60,50,0,0,1,0,0,0,2,7,49,3," + mean +
+           ",0.02,48,0.19,0.51,0.62,0.13,0.94,0.37,0.08\n";
   };
   folder.Write("run/statistics.csv", head + row("0", "0.3") + row("1", "0.2"));
   folder.Write("run/control/statistics.csv", head + row("0", "0.3") + row("1", "0.28"));
@@ -121,7 +122,7 @@ TEST(ReportNumbersCli, EveryColumnOfARunsTablesBecomesItsNumber) {
       "statuses": [["ok", 50], ["touches_border", 1], ["self_intersecting", 2], ["disjoint", 7]],
       "graspability": {"mean": 0.2, "half_width": 0.02, "count": 48},
       "elite_threshold": 0.19, "coverage": 0.51, "nna": 0.62, "duplicates": 0.13,
-      "diversity": 0.94, "scores": null})"));
+      "diversity": 0.94, "flat_share": 0.37, "crease_share": 0.08, "scores": null})"));
   EXPECT_EQ(run["stages"][0]["graspability"]["mean"], 0.3);
   const json& control = run["stages"][2];
   EXPECT_EQ(control["id"], "control-1");

@@ -149,9 +149,9 @@ std::vector<Cells> Parsed(const std::string& table, const std::vector<std::strin
   return rows;
 }
 
-const std::vector<std::string> kColumns = {"episode",      "samples",  "rejected",
-                                           "graspability", "/ prior",  "/ episode 0",
-                                           "/ control",    "coverage", "near-duplicates"};
+const std::vector<std::string> kColumns = {
+    "episode",     "samples",   "rejected", "graspability",    "/ prior",
+    "/ episode 0", "/ control", "coverage", "near-duplicates", "flat edges"};
 
 TEST(StatisticsTable, DividesByPriorEpisodeZeroAndTheControlOfTheSameEpisode) {
   StageStatistics prior = Row(-1, 0.004, 0.0004);
@@ -159,6 +159,7 @@ TEST(StatisticsTable, DividesByPriorEpisodeZeroAndTheControlOfTheSameEpisode) {
   StageStatistics last = Row(2, 0.001, 0.0);
   last.coverage = 0.25;
   last.duplicates = 0.13;
+  last.flat = 0.62;
   // The control's prior set and episode 0 are other ones here: they must not be divided by.
   const std::string table =
       StatisticsTable({prior, Row(0, 0.005, 0.001), Row(1, 0.002, 0.0002), last},
@@ -172,19 +173,19 @@ TEST(StatisticsTable, DividesByPriorEpisodeZeroAndTheControlOfTheSameEpisode) {
   };
   const std::string rejected = "1 empty, 2 disjoint", graspability = "0.00400 +-0.00040";
   // 1 +- hypot(0.1, 0.1)
-  expect(0, {"prior set", "100", rejected, graspability, "1.00 +-0.14", "-", "-", "-", "-"});
+  expect(0, {"prior set", "100", rejected, graspability, "1.00 +-0.14", "-", "-", "-", "-", "-"});
   // 1.25 +- hypot(0.25, 1.25 x 0.1); 1 +- hypot(0.2, 0.2)
   expect(1, {"0", "100", rejected, "0.00500 +-0.00100", "1.25 +-0.28", "1.00 +-0.28", "-", "33 %",
-             "0 %"});
+             "0 %", "-"});
   // 0.5 +- hypot(0.05, 0.5 x 0.1); 0.4 +- hypot(0.04, 0.4 x 0.2); 0.8 +- 0.08
   expect(2, {"1", "100", rejected, "0.00200 +-0.00020", "0.50 +-0.07", "0.40 +-0.09", "0.80 +-0.08",
-             "33 %", "0 %"});
+             "33 %", "0 %", "-"});
   expect(3, {"2", "100", rejected, "0.00100 +-0.00000", "0.25 +-0.03", "0.20 +-0.04", "0.25 +-0.00",
-             "25 %", "13 %"});
+             "25 %", "13 %", "62 %"});
   expect(4, {"control 1", "100", rejected, "0.00250 +-0.00000", "0.62 +-0.06", "0.50 +-0.10", "-",
-             "33 %", "0 %"});
+             "33 %", "0 %", "-"});
   expect(5, {"control 2", "100", rejected, "0.00400 +-0.00000", "1.00 +-0.10", "0.80 +-0.16", "-",
-             "33 %", "0 %"});
+             "33 %", "0 %", "-"});
 }
 
 // Powers of two, so that every number is exact: 0.25 by 1, 0.5 and (of the same episode) 2; the

@@ -146,6 +146,27 @@ TEST_F(ObjectTrials, AnInterruptedFolderOfFewerObjectsOrAnotherProgramIsCalledTh
       << WhyNot("t");
 }
 
+TEST_F(ObjectTrials, AnInterruptedFolderWhoseTablesWereChangedIsNotGoneOnWith) {
+  Try("t", 3);
+  const auto left = shapes::FileContents(folder_ / "t");
+  for (const char* table : {"trials.csv", "executions.csv", "replays.json"}) {
+    const auto path = folder_ / "t" / table;
+    const std::string as_left = ReadFile(path);
+    std::string changed = as_left;
+    const std::size_t digit = changed.find_last_of("0123456789");
+    changed[digit] = changed[digit] == '1' ? '2' : '1';
+    for (const std::string& bad : {changed, as_left.substr(0, as_left.size() / 2)}) {
+      WriteFileAtomic(path, bad);
+      EXPECT_NE(WhyNot("t").find("holds an interrupted trial whose tables were changed"),
+                std::string::npos)
+          << table << WhyNot("t");
+    }
+    WriteFileAtomic(path, as_left);
+  }
+  EXPECT_TRUE(left == shapes::FileContents(folder_ / "t"));
+  EXPECT_FALSE(Try("t").interrupted);
+}
+
 TEST_F(ObjectTrials, ACallThatIsStoppedInItsLastTrialIsFinished) {
   const PhysicsTrialReport whole = Try("whole");
   const int all = static_cast<int>(shapes::CsvRows(folder_ / "whole/trials.csv").size());
@@ -173,6 +194,21 @@ TEST_F(ObjectTrials, AFolderSaysInWordsWhatItHolds) {
   EXPECT_NE(text.find("  friction 0.5, own mass, 1 g: held "), std::string::npos) << text;
   EXPECT_NE(text.find(" points (3 pairs)\n"), std::string::npos) << text;
   EXPECT_NE(text.find(" points (1 pairs)\n"), std::string::npos) << text;  // at equal mass
+}
+
+// Of a comparison the first side of the first object: no pair, so no mean.
+TEST_F(ObjectTrials, AFolderWithoutAMeanYetSaysSo) {
+  Try("t", 1);
+  const std::string folder = (folder_ / "t").string();
+  EXPECT_EQ(TrialFolderText(folder),
+            folder + ": trials, interrupted after 1 of 12 trials of an object; no means yet\n");
+  try {
+    ReadTrialFolders({folder});
+    FAIL() << "read";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("interrupted after 1 of 12 trials of an object"), 0u)
+        << error.what();
+  }
 }
 
 // As wide as the jaws open at most: its success is unknown, not 0.

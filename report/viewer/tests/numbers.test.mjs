@@ -45,6 +45,8 @@ const RUN = [
     nna: 0.6,
     duplicates: 0.1,
     diversity: 0.9,
+    flat_share: 0.31,
+    crease_share: 0.064,
   }),
   stage("e1", 1, {
     ...mean(0.001, 0.0002, 70),
@@ -166,13 +168,21 @@ describe("a run's charts and tables", () => {
 
   test("measures of variety and reasons of rejection stand under their names", () => {
     const variety = shown["Variety and likeness to the prior set"];
-    assert.deepEqual(variety.header, ["stage", "coverage", "1-nna", "near-duplicates", "diversity"]);
+    assert.deepEqual(variety.header, [
+      "stage",
+      "coverage",
+      "1-nna",
+      "near-duplicates",
+      "diversity",
+      "flat edges",
+      "creases",
+    ]);
     assert.deepEqual(
       variety.rows.map((row) => row.map(plain)),
       [
-        ["episode 0", "50 %", "0.60", "10 %", "0.90"],
-        ["episode 1", "31 %", "0.72", "23 %", "0.84"],
-        ["control 1", "45 %", "0.66", "17 %", "0.95"],
+        ["episode 0", "50 %", "0.60", "10 %", "0.90", "31 %", "6.4 %"],
+        ["episode 1", "31 %", "0.72", "23 %", "0.84", "–", "–"],
+        ["control 1", "45 %", "0.66", "17 %", "0.95", "–", "–"],
       ],
     );
     const rejection = shown["Rejection by reason"];

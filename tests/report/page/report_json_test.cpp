@@ -89,6 +89,8 @@ TEST(ReportJson, AStageHasItsFieldsAndScoresOfSixDigits) {
   stage.nna = 0.33;
   stage.duplicates = 0.44;
   stage.diversity = 0.55;
+  stage.flat = 0.66;
+  stage.crease = 0.077;
   stage.scores = {0.12345678, 2.0};
   Report report;
   report.run = ReportRun{{stage}, {{3, true, {{"step", {10}}, {"loss_generator", {0.7654321}}}}}};
@@ -98,7 +100,7 @@ TEST(ReportJson, AStageHasItsFieldsAndScoresOfSixDigits) {
       "samples": 50, "statuses": [["ok", 48], ["gaps", 2]],
       "graspability": {"mean": 0.3, "half_width": 0.01, "count": 47},
       "elite_threshold": 0.11, "coverage": 0.22, "nna": 0.33, "duplicates": 0.44,
-      "diversity": 0.55, "scores": [0.123457, 2]}])"));
+      "diversity": 0.55, "flat_share": 0.66, "crease_share": 0.077, "scores": [0.123457, 2]}])"));
   EXPECT_EQ(json["run"]["losses"], Json::parse(R"([{
       "episode": 3, "control": true,
       "columns": {"step": [10], "loss_generator": [0.765432]}}])"));

@@ -12,7 +12,8 @@ interface Measure {
   text: (value: Num | undefined) => string;
   /** Top of the axis; left out: what the data need. */
   top?: number;
-  ideal?: number;
+  /** A dashed line; of the prior set where that has one. */
+  ideal?: (prior: Stage | undefined) => Num | undefined;
 }
 
 function rejectedShare(stage: Stage): Num {
@@ -35,7 +36,7 @@ const MEASURES: Measure[] = [
     value: (s) => s.nna,
     text: (v) => fixed(v, 2),
     top: 1,
-    ideal: 0.5,
+    ideal: () => 0.5,
   },
   {
     name: "Near-duplicates",
@@ -50,11 +51,25 @@ const MEASURES: Measure[] = [
     value: (s) => s.diversity,
     text: (v) => fixed(v, 2),
   },
+  {
+    name: "Flat edges",
+    says: "share of the edges' length under 2°; dashed: the prior set's",
+    value: (s) => s.flat_share,
+    text: (v) => percent(v),
+    ideal: (prior) => prior?.flat_share,
+  },
+  {
+    name: "Creases",
+    says: "share of the edges' length above 30°; dashed: the prior set's",
+    value: (s) => s.crease_share,
+    text: (v) => percent(v, 1),
+    ideal: (prior) => prior?.crease_share,
+  },
 ];
 
 /** Variety of the samples: one small chart per measure, episodes on a shared axis. */
 export function varietyFigure(stages: Stage[]): HTMLElement | null {
-  const { episodes, control, first } = stagesOf(stages);
+  const { prior, episodes, control, first } = stagesOf(stages);
   const shown = MEASURES.filter((m) => [...episodes, ...control].some((s) => known(m.value(s))));
   if (!shown.length) return null;
   const last = Math.max(...[...episodes, ...control].map((s) => s.episode));
@@ -66,7 +81,7 @@ export function varietyFigure(stages: Stage[]): HTMLElement | null {
       return { episode: i, value: known(value) ? value : NaN, label: stage?.label ?? "", text: m.text(value) };
     });
   const draw = (width: number) => {
-    const columns = width < 420 ? 1 : width < 760 ? 2 : shown.length;
+    const columns = width < 420 ? 1 : width < 760 ? 2 : shown.length > 4 ? 3 : shown.length;
     const each = Math.floor((width - (columns - 1) * 20) / columns);
     return h(
       "div",
@@ -82,6 +97,7 @@ export function varietyFigure(stages: Stage[]): HTMLElement | null {
             title: (d: { label: string; text: string }) => `${d.label}: ${d.text}`,
           }),
         ];
+        const ideal = m.ideal?.(prior);
         const chart = Plot.plot({
           width: each,
           height: 150,
@@ -101,7 +117,9 @@ export function varietyFigure(stages: Stage[]): HTMLElement | null {
             ...(m.top ? { domain: [0, m.top] } : {}),
           },
           marks: [
-            m.ideal ? Plot.ruleY([m.ideal], { stroke: COLOURS.ink, strokeOpacity: 0.4, strokeDasharray: "3 4" }) : null,
+            known(ideal)
+              ? Plot.ruleY([ideal], { stroke: COLOURS.ink, strokeOpacity: 0.4, strokeDasharray: "3 4" })
+              : null,
             ...(control.length ? line(first ? [first, ...control] : control, COLOURS.control) : []),
             ...line(episodes, COLOURS.run),
           ],

@@ -77,6 +77,8 @@ export interface Stage {
   nna?: Num;
   duplicates?: Num;
   diversity?: Num;
+  flat_share?: Num;
+  crease_share?: Num;
   scores?: Num[] | null;
 }
 
