@@ -87,9 +87,15 @@ Episode CemLoop::Finish() {
   Episode episode;
   episode.scored = scorer_(Sample(), StageName(number, "scoring"));
   episode.selection = selector_.Select(episode.scored, number);  // the rare event: lowest g
+  const std::int64_t outside = episode.selection.outside;
   if (episode.selection.elites.empty()) {
     throw RuntimeFailure("episode " + std::to_string(number) + ": none of " +
-                         std::to_string(config_.cem.samples) + " samples is a usable object");
+                         std::to_string(config_.cem.samples) + " samples is a usable object" +
+                         (outside > 0 ? " within cem.spread of the prior set" : ""));
+  }
+  if (outside > 0) {
+    observer_->Note("episode " + std::to_string(number) + ": " + std::to_string(outside) +
+                    " samples are beyond cem.spread of the prior set and not kept");
   }
   const bool refine = config_.cem.refine_steps > 0;
   episode.elites = selector_.Elites(

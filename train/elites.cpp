@@ -2,12 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <numeric>
 
 #include "antigrasp/core/check.h"
 
 namespace antigrasp {
 namespace {
+
+// Of the objects that have one; ties by index.
+std::vector<std::int64_t> LeastGraspableFirst(const std::vector<double>& graspability) {
+  std::vector<std::int64_t> indices;
+  for (std::size_t i = 0; i < graspability.size(); ++i) {
+    if (!std::isnan(graspability[i])) indices.push_back(static_cast<std::int64_t>(i));
+  }
+  std::stable_sort(indices.begin(), indices.end(), [&](std::int64_t a, std::int64_t b) {
+    return graspability[static_cast<std::size_t>(a)] < graspability[static_cast<std::size_t>(b)];
+  });
+  return indices;
+}
 
 std::vector<std::int64_t> Shares(const std::vector<double>& weight, std::int64_t keep) {
   const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
@@ -31,13 +45,7 @@ std::vector<std::int64_t> Shares(const std::vector<double>& weight, std::int64_t
 
 std::vector<std::int64_t> LeastGraspable(const std::vector<double>& graspability,
                                          std::int64_t keep) {
-  std::vector<std::int64_t> indices;
-  for (std::size_t i = 0; i < graspability.size(); ++i) {
-    if (!std::isnan(graspability[i])) indices.push_back(static_cast<std::int64_t>(i));
-  }
-  std::stable_sort(indices.begin(), indices.end(), [&](std::int64_t a, std::int64_t b) {
-    return graspability[static_cast<std::size_t>(a)] < graspability[static_cast<std::size_t>(b)];
-  });
+  std::vector<std::int64_t> indices = LeastGraspableFirst(graspability);
   indices.resize(std::min(indices.size(), static_cast<std::size_t>(keep)));
   std::sort(indices.begin(), indices.end());
   return indices;
@@ -69,6 +77,31 @@ SharedElites LeastGraspableByCell(const std::vector<double>& graspability,
   }
   std::sort(shared.elites.begin(), shared.elites.end());
   return shared;
+}
+
+std::vector<std::int64_t> DominatedNovelty(const std::vector<double>& graspability,
+                                           const DistanceMatrix& distances, std::int64_t keep,
+                                           int neighbours) {
+  AG_CHECK(distances.rows() == std::ssize(graspability) && distances.cols() == distances.rows(),
+           "a distance for every pair of objects");
+  AG_CHECK(neighbours > 0, "at least one neighbour");
+  const std::vector<std::int64_t> ranked = LeastGraspableFirst(graspability);
+  // Negative, so that the lowest is worth most.
+  std::vector<double> order(graspability.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<float> away;
+  for (std::size_t rank = 0; rank < ranked.size(); ++rank) {
+    const std::int64_t i = ranked[rank];
+    away.clear();
+    for (std::size_t better = 0; better < rank; ++better) {
+      away.push_back(distances(i, ranked[better]));
+    }
+    const auto count = std::min<std::ptrdiff_t>(std::ssize(away), neighbours);
+    std::partial_sort(away.begin(), away.begin() + count, away.end());
+    const double sum = std::accumulate(away.begin(), away.begin() + count, 0.0);
+    order[static_cast<std::size_t>(i)] =
+        count == 0 ? -std::numeric_limits<double>::infinity() : -sum / static_cast<double>(count);
+  }
+  return LeastGraspable(order, keep);
 }
 
 }  // namespace antigrasp

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "antigrasp/core/rng.h"
+#include "antigrasp/datasets/chamfer.h"
 
 namespace antigrasp {
 
@@ -29,5 +30,14 @@ struct SharedElites {
 SharedElites LeastGraspableByCell(const std::vector<double>& graspability,
                                   const std::vector<std::int64_t>& cell,
                                   const std::vector<double>& weight, std::int64_t keep);
+
+// Dominated Novelty Search (Bahlous-Boldi et al. 2025): an object is worth its mean distance to the
+// `neighbours` nearest of those that are less graspable, infinitely much without any. Kept are the
+// `keep` that are worth most, as ascending indices: the least graspable one, and those that are
+// unlike everything that beats them. Ties, of graspability and of worth, go to the lower index; NaN
+// is never kept. distances: [N, N], its diagonal is not looked at. N^2 log N.
+std::vector<std::int64_t> DominatedNovelty(const std::vector<double>& graspability,
+                                           const DistanceMatrix& distances, std::int64_t keep,
+                                           int neighbours);
 
 }  // namespace antigrasp

@@ -12,7 +12,7 @@ namespace antigrasp {
 namespace {
 
 // Euclidean distances [N, M] between the rows of a and b.
-DistanceMatrix Distances(const torch::Tensor& a, const torch::Tensor& b) {
+DistanceMatrix RowDistances(const torch::Tensor& a, const torch::Tensor& b) {
   const torch::Tensor squared =
       a.square().sum(1, true) + b.square().sum(1, true).t() - 2.0 * torch::mm(a, b.t());
   const torch::Tensor distances =
@@ -30,10 +30,15 @@ PriorSimilarity CompareWithPrior(const torch::Tensor& samples, const torch::Tens
   const torch::Tensor a = samples.slice(0, 0, n).reshape({n, -1}).to(torch::kFloat);
   const torch::Tensor b = reference.slice(0, 0, n).reshape({n, -1}).to(torch::kFloat);
   // The diagonal of |x|^2 + |x|^2 - 2 x.x is rounding noise; nothing below looks at it.
-  const DistanceMatrix aa = Distances(a, a), bb = Distances(b, b);
-  const SetComparison sets = CompareSets(aa, Distances(a, b), bb);
+  const DistanceMatrix aa = RowDistances(a, a), bb = RowDistances(b, b);
+  const SetComparison sets = CompareSets(aa, RowDistances(a, b), bb);
   const SpreadComparison spread = CompareSpreads(aa, bb);
   return {sets.coverage, sets.nna, spread.samples.duplicates, spread.diversity};
+}
+
+DistanceMatrix ValueDistances(const torch::Tensor& a, const torch::Tensor& b) {
+  const torch::NoGradGuard no_grad;
+  return RowDistances(a.flatten(1).to(torch::kFloat), b.flatten(1).to(torch::kFloat));
 }
 
 }  // namespace antigrasp

@@ -2,6 +2,8 @@
 
 #include <torch/types.h>
 
+#include "antigrasp/datasets/chamfer.h"
+
 namespace antigrasp {
 
 // How a generated set relates to a reference set of the same size (the definitions are those of
@@ -18,5 +20,8 @@ struct PriorSimilarity {
 
 // Both sets need at least two shapes; the larger one is cut to the smaller one's size.
 PriorSimilarity CompareWithPrior(const torch::Tensor& samples, const torch::Tensor& reference);
+
+// Those distances, [N, M]. The diagonal of a set with itself is rounding noise.
+DistanceMatrix ValueDistances(const torch::Tensor& a, const torch::Tensor& b);
 
 }  // namespace antigrasp

@@ -13,8 +13,14 @@ void Bind(OptionTable* table, CemOptions* o) {
   table->Add("cem.samples", &o->samples, 1, 1e6, "objects sampled per episode");
   table->Add("cem.keep", &o->keep, 1, 1e6, "elites kept per episode");
   table->Add("cem.variant", &o->variant,
-             "elites: the least graspable of all, or of every cell of the prior set");
+             "elites: the least graspable of all, of every cell of the prior set, or those unlike "
+             "all that are less graspable");
   table->Add("cem.cells", &o->cells, 1, 1e5, "cells of the stratified variant");
+  table->Add("cem.neighbours", &o->neighbours, 1, 1e5,
+             "less graspable samples that one of the diverse variant is compared with");
+  table->Add("cem.spread", &o->spread, 0, 100,
+             "keep no sample farther from the prior set than this percentage of its own shapes are "
+             "from each other; 0 = any");
   table->Add("cem.step", &o->step, 1e-3, 1,
              "latent mode: standard deviation of z around an elite's; 1 forgets the elites");
   table->Add("cem.select", &o->select, "keep the least graspable, or random ones (the control)");

@@ -21,11 +21,13 @@ constexpr auto ChoicesOf(EpisodeMode) {
       {{EpisodeMode::kGan, "gan"}, {EpisodeMode::kLatent, "latent"}});
 }
 
-// Where elites are looked for (selection.h): among all samples, or shared out like the prior set.
-enum class EliteRule { kPaper, kStratified };
+// Where elites are looked for (selection.h): among all samples, shared out like the prior set, or
+// among those that are unlike what beats them.
+enum class EliteRule { kPaper, kStratified, kDiverse };
 constexpr auto ChoicesOf(EliteRule) {
-  return std::to_array<Choice<EliteRule>>(
-      {{EliteRule::kPaper, "paper"}, {EliteRule::kStratified, "stratified"}});
+  return std::to_array<Choice<EliteRule>>({{EliteRule::kPaper, "paper"},
+                                           {EliteRule::kStratified, "stratified"},
+                                           {EliteRule::kDiverse, "diverse"}});
 }
 
 // By what they are picked. kRandom: the control run.
@@ -46,7 +48,11 @@ struct CemOptions {
   int samples = 2500;            // objects drawn from the generator per episode
   int keep = 500;                // elites: the least graspable of them
   EliteRule variant = EliteRule::kPaper;
-  int cells = 100;    // of the stratified variant
+  int cells = 100;     // of the stratified variant
+  int neighbours = 3;  // of the diverse variant
+  // A sample that is farther from its nearest prior shape than this percentage of prior shapes are
+  // from theirs is not kept. 0 = any distance will do.
+  double spread = 0.0;
   double step = 0.5;  // latent mode: how far z strays from an elite's (latent_mixture.h)
   EliteOrder select = EliteOrder::kGraspability;
   // Who scores the samples, lower = kept: "epsilon" (graspability), "settled", "trial",

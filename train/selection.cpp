@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/rng.h"
 #include "antigrasp/sdf/mesh_to_sdf.h"
 #include "antigrasp/train/elites.h"
+#include "antigrasp/train/prior_similarity.h"
 
 namespace antigrasp {
 namespace {
@@ -48,6 +50,7 @@ BoundingBox RoomFor(const SdfGrid& grid) {
 EliteSelector::EliteSelector(const RunConfig& config, torch::Tensor prior, EliteRefiner refine)
     : config_(config), prior_(std::move(prior)), refine_(std::move(refine)) {
   AG_CHECK(config_.cem.refine_steps == 0 || refine_, "somebody refines the elites");
+  if (config_.cem.spread > 0.0 && prior_.size(0) > 1) spread_.emplace(prior_, config_.cem.spread);
   if (config_.cem.variant != EliteRule::kStratified) return;
   const std::vector<std::int64_t> chosen =
       Draw(Every(prior_.size(0)), config_.cem.cells, RngStream(config_.seed, "cells"));
@@ -72,14 +75,28 @@ std::vector<std::int64_t> EliteSelector::CellsOf(const torch::Tensor& values) co
   return cells;
 }
 
+std::int64_t EliteSelector::LeaveOutside(const torch::Tensor& values,
+                                         std::vector<double>* order) const {
+  if (!spread_) return 0;
+  const std::vector<double> nearest = spread_->Nearest(values);
+  std::int64_t outside = 0;
+  for (std::size_t i = 0; i < order->size(); ++i) {
+    if (std::isnan((*order)[i]) || nearest[i] <= spread_->limit()) continue;
+    (*order)[i] = std::numeric_limits<double>::quiet_NaN();
+    ++outside;
+  }
+  return outside;
+}
+
 Selection EliteSelector::Select(const ScoredStage& scored, int episode) const {
   const CemOptions& cem = config_.cem;
   const auto stage = static_cast<std::uint64_t>(episode);
   RngStream chance(config_.seed, "control", stage);
-  const std::vector<double> order = cem.select == EliteOrder::kRandom
-                                        ? RandomOrder(scored.graspabilities, &chance)
-                                        : scored.graspabilities;
+  std::vector<double> order = cem.select == EliteOrder::kRandom
+                                  ? RandomOrder(scored.graspabilities, &chance)
+                                  : scored.graspabilities;
   Selection selection;
+  selection.outside = LeaveOutside(scored.values, &order);
   if (cem.variant == EliteRule::kStratified) {
     std::vector<double> weight;
     for (const auto& residents : residents_) weight.push_back(double(residents.size()));
@@ -90,6 +107,9 @@ Selection EliteSelector::Select(const ScoredStage& scored, int episode) const {
           Draw(residents_[c], shared.missing[c], RngStream(config_.seed, "stand-in", stage, c));
       selection.replayed.insert(selection.replayed.end(), stand_ins.begin(), stand_ins.end());
     }
+  } else if (cem.variant == EliteRule::kDiverse) {
+    selection.elites = DominatedNovelty(order, ValueDistances(scored.values, scored.values),
+                                        cem.keep, cem.neighbours);
   } else {
     selection.elites = LeastGraspable(order, cem.keep);
   }

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "antigrasp/core/parallel.h"
 #include "antigrasp/mesh/triangle_mesh.h"
+#include "antigrasp/train/prior_spread.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/stage.h"
 
@@ -17,6 +19,7 @@ namespace antigrasp {
 struct Selection {
   std::vector<std::int64_t> elites;    // ascending
   std::vector<std::int64_t> replayed;  // prior shapes
+  std::int64_t outside = 0;            // usable samples beyond cem.spread
 };
 
 // A shape that is harder to grasp than `mesh`, looks like it and lies within the box; the mesh
@@ -33,8 +36,11 @@ using EliteRefiner = std::function<TriangleMesh(const TriangleMesh& mesh, const 
 //                 the cell stand in for those that are missing. What the elites are like, to the
 //                 grain of the cells, then stays what the prior is like: the similarity constraint
 //                 D_KL(P_S || P_theta) of V-C, held by construction instead of by hope.
-// In both, cem.prior_fraction more shapes of the prior set are mixed in, and cem.select = kRandom
-// puts chance in the place of graspability.
+//   kDiverse      Dominated Novelty Search (elites.h) by network values: the least graspable, and
+//                 those that are unlike their cem.neighbours nearest that are less graspable.
+// In all, no sample beyond cem.spread of the prior set (prior_spread.h) is kept, cem.prior_fraction
+// more shapes of the prior set are mixed in, and cem.select = kRandom puts chance in the place of
+// graspability.
 class EliteSelector {
  public:
   // prior: network values [N, ...]; refine: for cem.refine_steps, whose elites it changes.
@@ -52,6 +58,8 @@ class EliteSelector {
 
  private:
   std::vector<std::int64_t> CellsOf(const torch::Tensor& values) const;
+  // NaN in the place of what is beyond cem.spread; how many that are.
+  std::int64_t LeaveOutside(const torch::Tensor& values, std::vector<double>* order) const;
 
   torch::Tensor ExactValues(const ScoredStage& scored, const std::vector<std::int64_t>& indices,
                             int episode, const ProgressFn& progress) const;
@@ -59,6 +67,7 @@ class EliteSelector {
   const RunConfig& config_;
   torch::Tensor prior_;
   EliteRefiner refine_;
+  std::optional<PriorSpread> spread_;
   torch::Tensor centres_;                             // [cells, r^3] float32
   std::vector<std::vector<std::int64_t>> residents_;  // of each cell: prior shapes
 };

@@ -84,5 +84,45 @@ TEST(LeastGraspableByCell, WithOneCellIsTheRuleOfThePaper) {
             LeastGraspable(values, 3));
 }
 
+// Objects on a line: their distances are differences.
+DistanceMatrix OnALine(const std::vector<float>& at) {
+  const auto n = static_cast<Eigen::Index>(at.size());
+  DistanceMatrix distances(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      distances(i, j) = std::abs(at[static_cast<std::size_t>(i)] - at[static_cast<std::size_t>(j)]);
+    }
+  }
+  return distances;
+}
+
+// Two heaps, 0 to 0.3 and 10 to 10.2: the least graspable of all lie in the first.
+TEST(DominatedNovelty, KeepsTheLeastGraspableAndWhatIsUnlikeAllThatBeatIt) {
+  const std::vector<double> values = {0.1, 0.2, 0.3, 0.4, 0.7, 0.6, 0.8};
+  const DistanceMatrix distances = OnALine({0.0F, 0.1F, 0.2F, 0.3F, 10.0F, 10.1F, 10.2F});
+  // Worth, one neighbour: endless, .1, .1, .1, .1 (to the one at 10.1), 9.8 (to that at .3), .1
+  EXPECT_EQ(DominatedNovelty(values, distances, 2, 1), (Indices{0, 5}));
+  EXPECT_EQ(DominatedNovelty(values, distances, 1, 1), (Indices{0}));
+  // Three neighbours: .1, .15, .2 within the first heap; (.1 + 9.7 + 9.8) / 3 = 6.5 for the fifth,
+  // (9.8 + 9.9 + 10) / 3 for the sixth, (.1 + .2 + 9.9) / 3 = 3.4 for the last.
+  EXPECT_EQ(DominatedNovelty(values, distances, 3, 3), (Indices{0, 4, 5}));
+  EXPECT_EQ(DominatedNovelty(values, distances, 4, 3), (Indices{0, 4, 5, 6}));
+  EXPECT_EQ(DominatedNovelty(values, distances, 5, 3), (Indices{0, 3, 4, 5, 6}));
+}
+
+TEST(DominatedNovelty, NeverKeepsARejectedObjectAndComparesWithNone) {
+  const std::vector<double> values = {kNaN, 0.2, 0.1};
+  const DistanceMatrix distances = OnALine({0.0F, 1.0F, 3.0F});
+  EXPECT_EQ(DominatedNovelty(values, distances, 3, 1), (Indices{1, 2}));
+  EXPECT_EQ(DominatedNovelty(values, distances, 1, 1), (Indices{2}));
+  EXPECT_TRUE(DominatedNovelty({kNaN}, OnALine({0.0F}), 1, 1).empty());
+}
+
+// Of two that are equally graspable the first one beats the second, not both each other.
+TEST(DominatedNovelty, OfEqualsTheLowerIndexBeatsTheOther) {
+  const DistanceMatrix distances = OnALine({0.0F, 0.0F, 5.0F});
+  EXPECT_EQ(DominatedNovelty({0.1, 0.1, 0.2}, distances, 2, 1), (Indices{0, 2}));
+}
+
 }  // namespace
 }  // namespace antigrasp

@@ -50,6 +50,8 @@ samples = 90
 keep = 9
 variant = "stratified"
 cells = 11
+neighbours = 7
+spread = 92.5
 step = 0.25
 select = "random"
 score = "judge:ours"
@@ -82,6 +84,8 @@ TEST(RunConfig, BindsEveryKeyToItsOwnField) {
   EXPECT_EQ(config.cem.keep, 9);
   EXPECT_EQ(config.cem.variant, EliteRule::kStratified);
   EXPECT_EQ(config.cem.cells, 11);
+  EXPECT_EQ(config.cem.neighbours, 7);
+  EXPECT_EQ(config.cem.spread, 92.5);
   EXPECT_EQ(config.cem.step, 0.25);
   EXPECT_EQ(config.cem.select, EliteOrder::kRandom);
   EXPECT_EQ(config.cem.score, "judge:ours");

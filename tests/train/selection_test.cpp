@@ -71,6 +71,47 @@ torch::Tensor Learnt(const EliteSelector& selector, const ScoredStage& scored,
   return selector.TrainingSet(selector.Elites(scored, selection, 1, nullptr), selection);
 }
 
+// The second family is beaten by all of the first, but is like none of it.
+TEST(EliteSelector, DiverseKeepsWhatIsUnlikeAllThatIsLessGraspable) {
+  RunConfig config = Config(EliteRule::kDiverse);
+  config.cem.neighbours = 1;
+  config.cem.keep = 2;
+  const EliteSelector selector(config, Prior());
+  EXPECT_EQ(selector.Select(Stage(), 1).elites, (std::vector<std::int64_t>{0, 20}));
+  config.cem.select = EliteOrder::kRandom;
+  const std::vector<std::int64_t> random = selector.Select(Stage(), 1).elites;
+  ASSERT_EQ(random.size(), 2U);
+  EXPECT_NE(random.front() < 20, random.back() < 20);  // one of either family
+}
+
+// Prior shapes are .014 from their nearest, samples of theirs .022, half a family away 2.8.
+TEST(EliteSelector, KeepsNoSampleBeyondTheSpreadOfThePriorSet) {
+  for (const EliteRule rule : {EliteRule::kPaper, EliteRule::kStratified, EliteRule::kDiverse}) {
+    RunConfig config = Config(rule);
+    config.cem.keep = 24;
+    ScoredStage scored = Stage();
+    scored.values = torch::cat({Family(0, 20, 0.01), Family(1, 4, 0.01)});
+    scored.values.slice(0, 0, 5).mul_(0.5);
+    const std::vector<std::int64_t> near = {5,  6,  7,  8,  9,  10, 11, 12, 13, 14,
+                                            15, 16, 17, 18, 19, 20, 21, 22, 23};
+    const EliteSelector any(config, Prior());
+    const Selection all = any.Select(scored, 1);
+    EXPECT_EQ(all.outside, 0);
+    if (rule != EliteRule::kStratified) {
+      EXPECT_EQ(all.elites.size(), 24U);
+    }
+    config.cem.spread = 95.0;
+    const EliteSelector selector(config, Prior());
+    const Selection selection = selector.Select(scored, 1);
+    EXPECT_EQ(selection.outside, 5);
+    if (rule == EliteRule::kStratified) {
+      for (const std::int64_t i : selection.elites) EXPECT_GE(i, 5);
+    } else {
+      EXPECT_EQ(selection.elites, near);
+    }
+  }
+}
+
 TEST(EliteSelector, OfThePaperKeepsTheLeastGraspableHoweverAlikeTheyAre) {
   const RunConfig config = Config(EliteRule::kPaper);
   const EliteSelector selector(config, Prior());
