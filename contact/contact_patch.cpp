@@ -22,7 +22,8 @@ constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
 // Total, so that the order in which faces were found says nothing.
 bool Before(const PatchPoint& a, const PatchPoint& b) {
   const auto key = [](const PatchPoint& p) {
-    return std::tie(p.place.x(), p.place.y(), p.distance, p.normal.x(), p.normal.y(), p.normal.z());
+    return std::tie(p.place.x(), p.place.y(), p.distance, p.normal.x(), p.normal.y(), p.normal.z(),
+                    p.x);
   };
   return key(a) < key(b);
 }
@@ -127,6 +128,12 @@ std::vector<PatchPoint> PatchCorners(std::vector<PatchPoint> points, int most) {
   Patch corners;
   AddOutline(points, within(kAsDeep), room, &corners);
   AddOutline(points, bears, room, &corners);
+  const auto overlaps = [](const PatchPoint& point) { return point.distance < 0.0; };
+  // Where all of them are lowest ones, the next outline has them.
+  if (std::any_of(points.begin(), points.end(),
+                  [&](const PatchPoint& point) { return overlaps(point) && !point.lowest; })) {
+    AddOutline(points, overlaps, room, &corners);
+  }
   AddOutline(
       points, [](const PatchPoint& point) { return point.lowest; }, room, &corners);
   AddOutline(

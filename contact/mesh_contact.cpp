@@ -28,6 +28,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // would be many.
 const double kOneContact = std::cos(8.0 * std::numbers::pi / 180.0);
 
+// Of a pad's, where anything has come in through its sides.
+constexpr int kSideContacts = 2;
+
 // Local minima that a query looks at, nearest ones; a sphere in a bowl of its own radius has many.
 constexpr int kMostMinima = 64;
 
@@ -229,8 +232,16 @@ int ContactSolid::Touch(const PadPose& pad, double margin, SurfaceContact* out, 
     if (cache->reach < 0.0 || !Contains(cache->region, region)) impl_->Fill(region, cache);
     for (const std::int32_t face : cache->faces) add(face);
   }
+  const auto side = std::stable_partition(points.begin(), points.end(),
+                                          [](const PatchPoint& point) { return point.x == 0.0; });
+  std::vector<PatchPoint> of_sides(side, points.end());
+  points.erase(side, points.end());
+  const int for_sides = of_sides.empty() ? 0 : std::min(kSideContacts, most - 1);
   int count = 0;
-  for (const PatchPoint& point : PatchCorners(std::move(points), most)) {
+  for (const PatchPoint& point : PatchCorners(std::move(points), most - for_sides)) {
+    out[count++] = PadContact(pad, point);
+  }
+  for (const PatchPoint& point : PatchCorners(std::move(of_sides), for_sides)) {
     out[count++] = PadContact(pad, point);
   }
   return count;
@@ -247,7 +258,7 @@ int ContactSolid::TouchPlane(const Vector3d& normal, double offset, double margi
     points.push_back({{y.dot(corner), z.dot(corner)}, Vector3d::UnitX(), height});
   }
   int count = 0;
-  for (const auto& [place, up, height, lowest] : PatchCorners(std::move(points), most)) {
+  for (const auto& [place, up, height, lowest, x] : PatchCorners(std::move(points), most)) {
     const Vector3d middle = place[0] * y + place[1] * z + (offset + 0.5 * height) * normal;
     out[count++] = {middle, normal, height};
   }

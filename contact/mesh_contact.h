@@ -45,8 +45,8 @@ class ContactSolid {
   // rectangle, from the margin ahead to the pad's back, cut out exactly, then PatchCorners. A flat
   // face gives the corners of the polygon that it has in common with the pad however it is cut into
   // triangles; where the surface bends away the patch ends at the margin. Approximate: of a curved
-  // or bumpy patch a few points stand for all; the sides of the pad touch nothing; where a ridge
-  // crosses the rim the normal is that of one of its two faces.
+  // or bumpy patch a few points stand for all; the sides of the pad touch what has come in through
+  // them, with no margin; where a ridge crosses the rim the normal is that of one of its two faces.
   int Touch(const PadPose& pad, double margin, SurfaceContact* out, int most = kMostContacts,
             TouchCache* cache = nullptr) const;
 

@@ -13,6 +13,10 @@ constexpr double kOnRim = 1e-9;
 // Metres: two corners of a face whose distances from the front face differ by less are level.
 constexpr double kLevel = 1e-9;
 
+// Metres: what lies deeper behind the front face, but is nearer to a side, came in from there. No
+// load and no step of a closing jaw takes the front that deep.
+constexpr double kFromTheSide = 0.25e-3;
+
 // Of a face's normal: less than this towards the pad is along it.
 constexpr double kLooksAtPad = 1e-9;
 
@@ -52,6 +56,34 @@ double Rim(double value, double half) {
   return value <= kOnRim - half ? -1.0 : 0.0;
 }
 
+// The side of the pad (axis 1 or 2, -1 or 1) that what is cut out of a face is pushed out of by the
+// shortest way; axis 0: the front.
+struct WayOut {
+  int axis = 0;
+  double sign = 1.0, depth = 0.0;
+};
+
+WayOut ShortestWayOut(const Polygon& polygon, const Vector3d& half) {
+  WayOut way;
+  const Vector3d* const begin = polygon.corner.data();
+  const auto deepest = [&](int axis, double sign, double rim) {
+    double depth = 0.0;
+    for (const Vector3d* q = begin; q != begin + polygon.size; ++q) {
+      depth = std::max(depth, rim - sign * (*q)[axis]);
+    }
+    return depth;
+  };
+  way.depth = deepest(0, 1.0, 0.0);
+  if (way.depth < kFromTheSide) return way;
+  for (int axis = 1; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      const double depth = deepest(axis, sign, half[axis]);
+      if (depth < way.depth) way = {axis, sign, depth};
+    }
+  }
+  return way;
+}
+
 }  // namespace
 
 void AddPadContacts(const PadPose& pad, double margin, const std::array<Vector3d, 3>& corners,
@@ -79,6 +111,18 @@ void AddPadContacts(const PadPose& pad, double margin, const std::array<Vector3d
     if (least[axis] < low[axis]) clip(axis, -1.0, low[axis]);
   }
   const Polygon& polygon = buffers[used];
+  if (const WayOut way = ShortestWayOut(polygon, pad.half); way.axis > 0) {
+    for (std::size_t i = 0; i < polygon.size; ++i) {
+      const Vector3d& q = polygon.corner[i];
+      const double depth = pad.half[way.axis] - way.sign * q[way.axis];
+      if (q[0] >= 0.0 || depth <= kOnRim) continue;
+      Eigen::Vector2d place = q.tail<2>();
+      place[way.axis - 1] = way.sign * pad.half[way.axis];
+      // Between the front face and what is seen of the wall that came in.
+      points->push_back({place, way.sign * Vector3d::Unit(way.axis), -depth, true, 0.5 * q[0]});
+    }
+    return;
+  }
   for (std::size_t i = 0; i < polygon.size; ++i) {
     const Vector3d& q = polygon.corner[i];
     const Vector3d& before = polygon.corner[i > 0 ? i - 1 : polygon.size - 1];
@@ -98,7 +142,7 @@ void AddPadContacts(const PadPose& pad, double margin, const std::array<Vector3d
 }
 
 SurfaceContact PadContact(const PadPose& pad, const PatchPoint& point) {
-  const Vector3d on_tip(0.0, point.place[0], point.place[1]);
+  const Vector3d on_tip(point.x, point.place[0], point.place[1]);
   return {pad.Front() + pad.axes * (on_tip + 0.5 * point.distance * point.normal),
           -(pad.axes * point.normal), point.distance};
 }

@@ -206,6 +206,53 @@ TEST(PadContact, StandsOnEveryBumpThatBearsIt) {
   }
 }
 
+// The foremost edge of the 64-gon leans by this angle: one end at the rim is deeper, and it is no
+// longer the only one that bears as soon as it is 20 um deeper.
+TEST(PadContact, OnARidgeThatLeansBearsAtBothEnds) {
+  const ContactSolid cylinder(shapes::Cylinder(0.02, 0.06, 64));
+  for (const double degrees : {0.0, 0.02, 0.2, 0.3, -0.3}) {
+    PadPose pad = PadFromRight({0.01996, 0.001, 0.0}, 0.01, 0.006);
+    const double lean = degrees * kPadDegree;
+    const Vector3d front = pad.Front();
+    pad.axes = AngleAxisd(lean, Vector3d::UnitY()).toRotationMatrix() * pad.axes;
+    pad.center = front - pad.half[0] * pad.axes.col(0);
+    for (const double end : {-1.0, 1.0}) {
+      const double depth = 0.04e-3 - end * 0.006 * std::sin(lean);
+      int found = 0;
+      for (const SurfaceContact& contact : PadTouches(cylinder, pad)) {
+        found += contact.position.z() * end > 0.0055 && std::abs(contact.position.y()) < 1e-9 &&
+                 std::abs(contact.distance + depth) < 1e-6;
+      }
+      EXPECT_EQ(found, 1) << degrees << " degrees, end " << end << ", depth " << depth;
+    }
+  }
+}
+
+// A step of 4 mm beside the pad, whose side is 0.1 mm in it; the front is 0.05 mm above the floor.
+TEST(PadContact, OfAStepThatComesInFromTheSideIsThatSides) {
+  const ContactSolid stairs(shapes::Extruded(
+      {{-0.02, -0.02}, {0.016, -0.02}, {0.016, 0.0}, {0.02, 0.0}, {0.02, 0.02}, {-0.02, 0.02}},
+      {{0, 1, 2}, {0, 2, 5}, {2, 3, 4}, {2, 4, 5}}, 0.04));
+  const auto contacts = PadTouches(stairs, PadFromRight({0.01605, -0.0059, 0.0}, 0.006, 0.005));
+  int at_side = 0, on_floor = 0;
+  for (const SurfaceContact& contact : contacts) {
+    if (contact.distance < 0.0) {
+      ++at_side;
+      EXPECT_NEAR(contact.distance, -0.0001, 1e-9);
+      EXPECT_LT((contact.normal + Vector3d::UnitY()).norm(), 1e-9);
+      EXPECT_NEAR(contact.position.y(), 0.00005, 1e-9);
+      EXPECT_NEAR(contact.position.x(), 0.5 * (0.01605 + 0.02), 1e-9);
+      EXPECT_NEAR(std::abs(contact.position.z()), 0.005, 1e-9);
+    } else {
+      ++on_floor;
+      EXPECT_NEAR(contact.distance, 0.00005, 1e-9);
+      EXPECT_LT((contact.normal - Vector3d::UnitX()).norm(), 1e-9);
+    }
+  }
+  EXPECT_EQ(at_side, 2);
+  EXPECT_GE(on_floor, 4);
+}
+
 TEST(PadContact, HasTheSameBitsWithACache) {
   const ContactSolid solid(shapes::Bumpy(0.02, 4, 6));
   RngStream rng(4, "test");
