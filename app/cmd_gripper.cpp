@@ -25,7 +25,7 @@ void Gripper(const std::string& name, const std::string& out) {
   MetricOptions metric;
   ApplyGripper(name, &metric);
   RequireFittingGripper(metric, name);
-  const std::string toml = GripperToml(metric, AboutGripper(name) + ". Metres");
+  const std::string toml = GripperToml(metric, BaseOf(name), AboutGripper(name) + ". Metres");
   const std::filesystem::path path = out;
   RequireNotRead(name, {path});
   const bool as_mesh = !out.empty() && path.extension() != ".png" && path.extension() != ".toml";

@@ -19,7 +19,16 @@ namespace {
 constexpr double kFitSlack = 1e-9;
 
 constexpr std::array<NamedGripper, 4> kGrippers = {{
-    {"yumi", "ABB YuMi servo gripper with Dex-Net's fingers", MetricOptions{}.jaw_opening, {}},
+    {"yumi",
+     "ABB YuMi servo gripper with Dex-Net's fingers",
+     MetricOptions{}.jaw_opening,
+     {},
+     "yumi",
+     "gripper_r_base",
+     LinkAxis::kX,
+     "gripper_r_joint gripper_r_joint_m",
+     0.025,
+     0.0},
     {"panda",
      "Franka Hand, standard fingers",
      0.080,
@@ -29,7 +38,13 @@ constexpr std::array<NamedGripper, 4> kGrippers = {{
       .finger_thickness = 0.0152,
       .palm_depth = 0.0660,
       .palm_length = 0.2044,
-      .palm_width = 0.0633}},
+      .palm_width = 0.0633},
+     "franka_panda",
+     "panda_hand",
+     LinkAxis::kY,
+     "panda_finger_joint1 panda_finger_joint2",
+     0.04,
+     0.0},
     {"robotiq_85",
      "Robotiq 2F-85, rubber pads",
      0.085,
@@ -39,7 +54,13 @@ constexpr std::array<NamedGripper, 4> kGrippers = {{
       .finger_thickness = 0.0169,
       .palm_depth = 0.0900,
       .palm_length = 0.1484,
-      .palm_width = 0.0750}},
+      .palm_width = 0.0750},
+     "robotiq_2f_85",
+     "robotiq_arg2f_base_link",
+     LinkAxis::kY,
+     "finger_joint",
+     0.0,
+     0.8},
     {"robotiq_140",
      "Robotiq 2F-140, rubber pads",
      0.140,
@@ -49,7 +70,13 @@ constexpr std::array<NamedGripper, 4> kGrippers = {{
       .finger_thickness = 0.0171,
       .palm_depth = 0.0900,
       .palm_length = 0.2024,
-      .palm_width = 0.0750}},
+      .palm_width = 0.0750},
+     "robotiq_2f_140",
+     "robotiq_arg2f_base_link",
+     LinkAxis::kY,
+     "finger_joint",
+     0.0,
+     0.7},
 }};
 
 const NamedGripper* Find(const std::string& name) {
@@ -65,6 +92,8 @@ std::vector<std::string> Names() {
   return names;
 }
 
+int Along(LinkAxis axis) { return static_cast<int>(axis) % 3; }
+
 // The keys of a gripper whose lengths no other gripper can stand in for, by their targets.
 std::array<double*, 8> Lengths(MetricOptions* options) {
   GripperModel& m = options->gripper;
@@ -72,12 +101,17 @@ std::array<double*, 8> Lengths(MetricOptions* options) {
           &m.finger_thickness,   &m.palm_depth,    &m.palm_length,       &m.palm_width};
 }
 
-void ApplyGripperFile(const std::string& path, MetricOptions* options) {
+void ApplyGripperFile(const std::string& path, MetricOptions* options, GripperBase* base) {
   MetricOptions read = *options;
   for (double* length : Lengths(&read)) *length = std::numeric_limits<double>::quiet_NaN();
   OptionTable table;
   BindGripper(&table, &read);
+  Bind(&table, base);
   table.ApplyFile(path);
+  if (Along(base->approach) == Along(base->closing)) {
+    throw InputError("base.closing = " + ChoiceName(base->closing), path,
+                     "an axis across base.approach = " + ChoiceName(base->approach));
+  }
   for (const Option& option : table.options()) {
     const auto* number = std::get_if<double*>(&option.target);
     if (number == nullptr || !std::isnan(**number)) continue;
@@ -85,6 +119,17 @@ void ApplyGripperFile(const std::string& path, MetricOptions* options) {
                      "every length of the gripper (an example: antigrasp gripper yumi)");
   }
   *options = read;
+}
+
+const NamedGripper* FindOrRequireFile(const std::string& name_or_file) {
+  const NamedGripper* const named = Find(name_or_file);
+  const std::filesystem::path path = name_or_file;
+  if (named == nullptr && path.extension() != ".toml" && !std::filesystem::exists(path)) {
+    throw InputError("no gripper " + name_or_file, "--gripper",
+                     Alternatives(Names()) + " or a TOML file; the nearest name is " +
+                         Nearest(name_or_file, Names()));
+  }
+  return named;
 }
 
 // Of the lengths that have to fit each other those that were typed, else those that are not as they
@@ -146,7 +191,7 @@ std::string AboutGripper(const std::string& name_or_file) {
 }
 
 void ApplyGripper(const std::string& name_or_file, MetricOptions* options) {
-  if (const NamedGripper* named = Find(name_or_file)) {
+  if (const NamedGripper* named = FindOrRequireFile(name_or_file)) {
     MetricOptions of_name = *options;
     of_name.jaw_opening = named->jaw_opening;
     of_name.gripper = named->model;
@@ -156,13 +201,27 @@ void ApplyGripper(const std::string& name_or_file, MetricOptions* options) {
     *options = result;
     return;
   }
-  const std::filesystem::path path = name_or_file;
-  if (path.extension() != ".toml" && !std::filesystem::exists(path)) {
-    throw InputError("no gripper " + name_or_file, "--gripper",
-                     Alternatives(Names()) + " or a TOML file; the nearest name is " +
-                         Nearest(name_or_file, Names()));
+  GripperBase base;  // which its keys may be about
+  ApplyGripperFile(name_or_file, options, &base);
+}
+
+GripperBase BaseOf(const std::string& name_or_file) {
+  GripperBase base;
+  if (const NamedGripper* named = FindOrRequireFile(name_or_file)) {
+    base = {std::string(named->name),
+            std::string(named->asset),
+            std::string(named->frame),
+            LinkAxis::kZ,
+            named->closing,
+            std::string(named->joints),
+            named->joint_open,
+            named->joint_closed};
+  } else {
+    base.name = std::filesystem::path(name_or_file).stem().string();
+    MetricOptions metric;
+    ApplyGripperFile(name_or_file, &metric, &base);
   }
-  ApplyGripperFile(name_or_file, options);
+  return base;
 }
 
 void RequireFittingGripper(const MetricOptions& options, const std::string& origin,
@@ -186,10 +245,28 @@ void RequireFittingGripper(const MetricOptions& options, const std::string& orig
                    origin, expected);
 }
 
-std::string GripperToml(const MetricOptions& options, const std::string& about) {
+void Bind(OptionTable* table, GripperBase* base) {
+  table->Add("base.name", &base->name, {},
+             "of the gripper in files of grasps (ACRONYM, Dex-Net, isaac_grasp)");
+  table->Add("base.asset", &base->asset, {}, "the same in GraspGen and MultiGripperGrasp");
+  table->Add("base.frame", &base->frame, {},
+             "link whose pose such files hold, palm_distance + palm_depth behind the grasp");
+  table->Add("base.approach", &base->approach, "axis of that link that points out of the palm");
+  table->Add("base.closing", &base->closing, "axis of that link from jaw 1 to jaw 2");
+  table->Add("base.joints", &base->joints, {}, "of the fingers, a blank between names");
+  table->Add("base.joint_open", &base->joint_open, -100.0, 100.0,
+             "of each joint at the full opening, m or rad");
+  table->Add("base.joint_closed", &base->joint_closed, -100.0, 100.0,
+             "of each joint at no opening, m or rad; linear between");
+}
+
+std::string GripperToml(const MetricOptions& options, const GripperBase& base,
+                        const std::string& about) {
   MetricOptions copy = options;
+  GripperBase base_copy = base;
   OptionTable table;
   BindGripper(&table, &copy);
+  Bind(&table, &base_copy);
   return "# " + about + "\n" + table.Dump();
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "antigrasp/quality/gripper_base.h"
 #include "antigrasp/quality/metric_options.h"
 
 namespace antigrasp {
@@ -15,6 +16,10 @@ struct NamedGripper {
   std::string_view about;
   double jaw_opening;
   GripperModel model;
+  std::string_view asset, frame;  // GripperBase; the approach is z of the frame
+  LinkAxis closing;
+  std::string_view joints;
+  double joint_open, joint_closed;
 };
 
 // The one list. Every number's source is in docs/grippers.md.
@@ -32,13 +37,19 @@ std::string AboutGripper(const std::string& name_or_file);
 // length out: a part of another gripper would stand in for it.
 void ApplyGripper(const std::string& name_or_file, MetricOptions* options);
 
+// How other programs know it. A file may say so in keys "base.*"; one without them is called after
+// itself, its base's z is the approach and x the closing direction. InputError as above, and for
+// two directions along one line.
+GripperBase BaseOf(const std::string& name_or_file);
+
 // InputError when the palm is narrower than the open fingers that it carries. It names what was
 // typed, or what is not as it is by default, and the unit that a length above a metre speaks for.
 // Not asked of a metric that looks at the jaws alone.
 void RequireFittingGripper(const MetricOptions& options, const std::string& origin,
                            const TypedOption& typed = nullptr);
 
-// The file that ApplyGripper reads, `about` as its first line.
-std::string GripperToml(const MetricOptions& options, const std::string& about);
+// The file that ApplyGripper and BaseOf read, `about` as its first line.
+std::string GripperToml(const MetricOptions& options, const GripperBase& base,
+                        const std::string& about);
 
 }  // namespace antigrasp

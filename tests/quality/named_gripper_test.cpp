@@ -96,10 +96,35 @@ TEST(NamedGripper, WhatIsPrintedOfOneIsAFileThatIsRead) {
   for (const NamedGripper& gripper : NamedGrippers()) {
     MetricOptions written, read;
     ApplyGripper(std::string(gripper.name), &written);
-    folder.Write("a.toml", GripperToml(written, "about"));
+    const GripperBase base = BaseOf(std::string(gripper.name));
+    folder.Write("a.toml", GripperToml(written, base, "about"));
     ApplyGripper((folder / "a.toml").string(), &read);
     EXPECT_EQ(MetricToml(read, 1), MetricToml(written, 1)) << gripper.name;
+    const GripperBase again = BaseOf((folder / "a.toml").string());
+    EXPECT_EQ(GripperToml(read, again, ""), GripperToml(written, base, "")) << gripper.name;
   }
+}
+
+// Franka's hand closes along y of its link, YuMi's along x; a file without a word of it has z and
+// x.
+TEST(NamedGripper, SaysHowOtherProgramsKnowIt) {
+  const GripperBase panda = BaseOf("panda"), yumi = BaseOf("yumi");
+  EXPECT_EQ(panda.frame, "panda_hand");
+  EXPECT_EQ(panda.Asset(), "franka_panda");
+  EXPECT_EQ(panda.closing, LinkAxis::kY);
+  EXPECT_EQ(panda.joint_open, 0.04);
+  EXPECT_EQ(yumi.closing, LinkAxis::kX);
+  const TempFolder folder;
+  const std::string file = folder.Write("mine.toml", kMine).string();
+  const GripperBase mine = BaseOf(file);
+  EXPECT_EQ(mine.name, "mine");
+  EXPECT_EQ(mine.Asset(), "mine");
+  EXPECT_EQ(mine.approach, LinkAxis::kZ);
+  EXPECT_EQ(mine.closing, LinkAxis::kX);
+  EXPECT_EQ(mine.joints, "");
+  folder.Write("mine.toml", std::string(kMine) + "[base]\napproach = \"-y\"\nclosing = \"y\"\n");
+  EXPECT_EQ(WhyRefused(file),
+            "base.closing = y (" + file + "): expected an axis across base.approach = -y");
 }
 
 TEST(NamedGripper, RefusesInALineAndChangesNothing) {
