@@ -1,5 +1,3 @@
-#include <spdlog/spdlog.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -11,10 +9,11 @@
 #include "antigrasp/app/trial_flags.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/grasp_io/grasp_files.h"
 #include "antigrasp/judge/given_objects.h"
 #include "antigrasp/judge/make_judge.h"
 #include "antigrasp/judge/score_objects.h"
-#include "antigrasp/quality/grasp_table.h"
+#include "antigrasp/quality/named_gripper.h"
 #include "antigrasp/quality/object_size.h"
 #include "antigrasp/quality/sampling_effort.h"
 
@@ -23,8 +22,6 @@ namespace {
 
 struct EvaluateFlags : GivenRequest {  // whose grasps are those of --grasps-in
   std::vector<std::string> baseline;
-  std::string grasps_out;
-  GraspFrame frame = GraspFrame::kMetres;
   ProtocolName protocol = ProtocolName::kSixWays;
   std::string judge;
   ProgramLimits limits;
@@ -49,15 +46,6 @@ void PrintLines(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) std::fprintf(stderr, "%s\n", line.c_str());
 }
 
-// A pair need not have one name when there is one of each.
-void WarnOfOtherName(const ObjectSource& objects, const ObjectSource& originals) {
-  if (objects.size() > 1) return;
-  const std::string &object = objects.name(0), &original = originals.name(0);
-  if (FileNameOf(object) == FileNameOf(original)) return;
-  spdlog::warn("{} and {} are taken as a pair, though their names differ: there is one of each",
-               object, original);
-}
-
 void EvaluateHardest(const EvaluateFlags& flags, const ObjectSource& objects,
                      const Scoring& scoring) {
   const HardestOfSet found = FindHardest(objects, flags.inputs.front(), flags.hardest, scoring);
@@ -72,36 +60,39 @@ void EvaluateAll(const EvaluateFlags& flags, const ObjectSource& objects, const 
     originals.emplace(flags.baseline, GridUnit::kOfFiles, UnitToReadIn(scoring.metric));
     original_of = PairWithOriginals(objects, *originals);
   }
-  std::optional<AtomicFile> grasps_file;
-  if (!flags.grasps_out.empty()) grasps_file.emplace(flags.grasps_out);
-  GraspTable grasps(flags.frame);
+  GraspFiles grasps(flags.output, objects);
+  std::int64_t place = 0;
   ScoreTable table;
   const ScoredSet scores =
       ScoreObjects(objects, flags.inputs.front(), originals ? &*originals : nullptr, original_of,
                    scoring, [&](const ScoredObject& scored, const ScoreRow& row) {
                      table.Add(row);
-                     if (!grasps_file) return;
-                     grasps.Add(scored.name, scored.score, scored.center_of_mass);
-                     grasps_file->Append(grasps.TakeText());
+                     grasps.Add(place++, scored);
                    });
-  if (originals) WarnOfOtherName(objects, *originals);
-  if (grasps_file) grasps_file->Commit();
+  const std::string pair = originals ? OtherNamesText(objects, *originals) : "";
+  if (!pair.empty()) Warn(pair);
+  for (const std::string& note : grasps.Commit()) Warn(note);
   WriteScores(flags, scoring, table.Csv());
   PrintLines(scores.Summary(scoring.effort_given));
   if (originals) PrintLines({scores.PairedDifference()});
   RequireAVerdict(scores, scoring.judge);
 }
 
-void EvaluateGrasps(const EvaluateFlags& flags, const TypedTrial& typed,
-                    const MetricOptions& metric) {
+void EvaluateGrasps(EvaluateFlags flags, const TypedTrial& typed, const MetricOptions& metric) {
   const std::vector<std::filesystem::path> written = {
-      flags.out, MetricPath(flags), flags.out.empty() ? "" : flags.out + ".trial.toml"};
+      flags.out, MetricPath(flags), flags.out.empty() ? "" : flags.out + ".trial.toml",
+      flags.output.path};
+  RequireApart(written);
   ObjectSource(flags.inputs).RequireNotRead(written);
   RequireNotRead(flags.grasps, written);
   const Protocol protocol = ProtocolOf(flags.protocol);
   MetricOptions of_trial = metric;
   const PhysicsTrialOptions trial = TrialOptionsOf(protocol, typed, &of_trial);
-  if (flags.in_physics) RequireOptionsUsed(protocol, trial.physics.tip.shape, typed, true);
+  flags.output.about.density = trial.density;
+  if (flags.in_physics) {
+    RequireOptionsUsed(protocol, trial.physics.tip.shape, typed, true);
+    flags.output.about.protocol = ChoiceName(flags.protocol);
+  }
   ConsoleObserver console;
   const GivenReport report = ScoreGiven(flags, metric, of_trial, trial, &console);
   std::fputs(report.table.c_str(), stdout);
@@ -109,23 +100,23 @@ void EvaluateGrasps(const EvaluateFlags& flags, const TypedTrial& typed,
   PrintLines(report.summary);
 }
 
-void Evaluate(const EvaluateFlags& flags, const TypedTrial& typed,
-              const MetricFlags& metric_flags) {
+void Evaluate(EvaluateFlags flags, const TypedTrial& typed, const MetricFlags& metric_flags) {
   if (!typed.First().empty() && !flags.in_physics && flags.judge.empty()) {
     throw InputError("an option of a trial", typed.First(),
                      "--trial PROTOCOL beside them, or --judge trial");
   }
-  for (const std::string& out : {flags.out, flags.grasps_out}) {
-    if (!out.empty()) const AtomicFile probe(out);  // refuses an unwritable target before the work
-  }
+  if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refuses it before the work
   ConsoleObserver console;
   Scoring scoring{metric_flags.Resolve(), metric_flags.effort_given(),
                   metric_flags.preset() == "egad", flags.seed, flags.threads};
   scoring.observer = &console;
   scoring.warn = &Warn;
+  flags.output.about.metric = scoring.metric;
+  const std::string& gripper = metric_flags.gripper();
+  flags.output.about.base = BaseOf(gripper.empty() ? "yumi" : gripper);
   if (!flags.grasps.empty()) return EvaluateGrasps(flags, typed, scoring.metric);
   const std::vector<std::filesystem::path> written = {flags.out, MetricPath(flags),
-                                                      flags.grasps_out};
+                                                      flags.output.path};
   RequireApart(written);
   const ObjectSource objects(flags.inputs, GridUnit::kOfFiles, UnitToReadIn(scoring.metric));
   objects.RequireNotRead(written);
@@ -175,12 +166,23 @@ void AddEvaluateCommand(CLI::App* app) {
                       "scores (CSV); the constants go to the same name plus .metric.toml. "
                       "Without it the scores go to standard output");
   CLI::Option* grasps =
-      command->add_option("--grasps", flags->grasps_out, "every sampled grasp (CSV)");
+      command->add_option("--grasps", flags->output.path,
+                          "every grasp: CSV, or by extension or --grasp-format a file that other "
+                          "programs read (docs/grasps.md); with --grasps-in those, labelled");
+  AddChoice(command, "--grasp-format", &flags->output.format,
+            "of --grasps; auto: isaac .yaml, graspgen .json, acronym .h5, dexnet .hdf5, else csv");
+  command
+      ->add_option("--success-quality", flags->output.about.success_quality,
+                   "robust quality of a grasp that --grasps calls a success, where none was tried")
+      ->check(NumberIn(0.0, 1e9))
+      ->capture_default_str();
   AddChoice(
-      command, "--frame", &flags->frame,
-      "of --grasps: metres, as the metric rescales the object, or mesh, the unit and frame of "
-      "the input");
-  command->get_option("--frame")->needs(grasps);
+      command, "--frame", &flags->output.frame,
+      "of --grasps (CSV): metres, as the metric rescales the object, or mesh, the unit and frame "
+      "of the input");
+  for (const char* name : {"--frame", "--grasp-format", "--success-quality"}) {
+    command->get_option(name)->needs(grasps);
+  }
   command->add_option("--baseline", flags->baseline,
                       "the same objects before a change (meshes, folders, SDF files; paired by "
                       "name): prints the paired difference under equal random numbers");
@@ -192,8 +194,9 @@ void AddEvaluateCommand(CLI::App* app) {
       "--grasps-in", flags->grasps,
       "score these grasps, not sampled ones (CSV): center_x ... axis_z, "
       "approach_* and width if there are such columns, in the unit and frame of "
-      "the mesh; or what --grasps wrote (docs/grasps.md)");
-  for (const char* other : {"--grasps", "--baseline", "--hardest"}) given->excludes(other);
+      "the mesh; or what --grasps wrote, or a file or folder of another format of its "
+      "(docs/grasps.md)");
+  for (const char* other : {"--baseline", "--hardest"}) given->excludes(other);
   AddChoice(command, "--trial", &flags->protocol,
             "execute each of them in physics, by this protocol of antigrasp trial");
   command->get_option("--trial")->needs(given);

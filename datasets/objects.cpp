@@ -227,6 +227,14 @@ std::vector<std::int64_t> PairWithOriginals(const ObjectSource& objects,
   return pairs;
 }
 
+std::string OtherNamesText(const ObjectSource& objects, const ObjectSource& originals) {
+  if (objects.size() > 1) return "";
+  const std::string &object = objects.name(0), &original = originals.name(0);
+  if (FileNameOf(object) == FileNameOf(original)) return "";
+  return object + " and " + original +
+         " are taken as a pair, though their names differ: there is one of each";
+}
+
 std::string CountByStatus(const std::vector<std::string>& statuses) {
   std::map<std::string, int> counts;
   for (const std::string& status : statuses) ++counts[status];

@@ -77,6 +77,10 @@ std::vector<InputObject> LoadObjects(const std::vector<std::string>& inputs, int
 std::vector<std::int64_t> PairWithOriginals(const ObjectSource& objects,
                                             const ObjectSource& originals);
 
+// "a.stl and b.stl are taken as a pair, ..."; empty unless one object pairs up with one of another
+// name.
+std::string OtherNamesText(const ObjectSource& objects, const ObjectSource& originals);
+
 // "12 objects: 10 ok, 1 empty, 1 open: 4 boundary edges", of their statuses.
 std::string CountByStatus(const std::vector<std::string>& statuses);
 

@@ -1,6 +1,8 @@
 #include "antigrasp/judge/given_objects.h"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -35,7 +37,8 @@ std::string Named(const std::set<std::string>& names) {
   return text;
 }
 
-ByObject Sort(std::vector<GivenGrasp> all, const ObjectSource& objects, const std::string& table) {
+ByObject Sort(GraspsRead read, const ObjectSource& objects, const std::string& table) {
+  std::vector<GivenGrasp>& all = read.grasps;
   ByObject by;
   by.grasps.resize(static_cast<std::size_t>(objects.size()));
   std::set<std::string> named;
@@ -52,7 +55,10 @@ ByObject Sort(std::vector<GivenGrasp> all, const ObjectSource& objects, const st
     place[FileNameOf(objects.name(i))] = static_cast<std::size_t>(i);
   }
   for (GivenGrasp& grasp : all) {
-    const auto found = place.find(FileNameOf(grasp.object));
+    auto found = place.find(FileNameOf(grasp.object));
+    if (found == place.end() && read.of_mesh_files) {
+      found = place.find(FileNameOf(std::filesystem::path(grasp.object).filename().string()));
+    }
     if (found == place.end()) {
       ++by.others;
     } else {
@@ -61,21 +67,36 @@ ByObject Sort(std::vector<GivenGrasp> all, const ObjectSource& objects, const st
   }
   if (by.others == std::ssize(all)) {
     throw InputError("grasps of " + Named(named) + ", no grasp of " + objects.name(0), table,
-                     "the names of the objects that are scored in the column object");
+                     read.of_mesh_files
+                         ? "the mesh that it names among the objects that are scored"
+                         : "the names of the objects that are scored in the column object");
   }
   return by;
+}
+
+constexpr double kScaleRounding = 1e-6;
+
+bool SameScale(double a, double b) { return std::abs(a - b) <= kScaleRounding * b; }
+
+// At the scale that a file of grasps says, where the object would be rescaled anyway.
+MetricOptions AtScaleOf(const std::vector<GivenGrasp>& grasps, const Eigen::Vector3d& extent,
+                        MetricOptions metric) {
+  const auto said = std::find_if(grasps.begin(), grasps.end(),
+                                 [](const GivenGrasp& grasp) { return grasp.says_scale; });
+  if (said == grasps.end() || AtTrueSize(metric)) return metric;
+  if (!SameScale(said->metres_per_unit, MetresPerUnit(metric, extent))) {
+    metric.object_min_extent = said->metres_per_unit * extent.minCoeff();
+  }
+  return metric;
 }
 
 // A table says the size that its grasps were planned at: at another one they are not these grasps.
 void RequireSameScale(const std::string& object, const TriangleMesh& mesh,
                       const std::vector<GivenGrasp>& grasps, const MetricOptions& metric,
                       const std::string& table) {
-  constexpr double kRounding = 1e-6;
   const double scale = MetresPerUnit(metric, Bounds(mesh).Extent());
   for (const GivenGrasp& grasp : grasps) {
-    if (!(std::abs(grasp.metres_per_unit - scale) > kRounding * scale) || !grasp.says_scale) {
-      continue;
-    }
+    if (!grasp.says_scale || SameScale(grasp.metres_per_unit, scale)) continue;
     throw InputError("grasps of " + object + " at metres_per_unit " +
                          FormatDouble(grasp.metres_per_unit) + ", which is scored at " +
                          FormatDouble(scale),
@@ -88,7 +109,36 @@ struct ScoredGrasps {
   Eigen::Vector3d extent = Eigen::Vector3d::Zero();
   std::vector<GivenScore> scores;
   std::vector<TriedGrasp> tried;
+  bool at_scale_of_file = false;
+  GraspSet set;  // where it is to be written
 };
+
+// Of the grasps that could be scored.
+GraspSet SetOf(const std::string& name, double scale, const std::vector<GivenGrasp>& grasps,
+               const ScoredGrasps& scored) {
+  GraspSet set;
+  set.object = name;
+  set.metres_per_unit = scale;
+  for (std::size_t i = 0; i < grasps.size(); ++i) {
+    const GivenScore& score = scored.scores[i];
+    if (!score.scored()) continue;
+    PosedGrasp grasp{grasps[i].id, grasps[i].center, score.grasp.axis, score.grasp.approach};
+    if (grasps[i].frame == GraspFrame::kMesh) {
+      grasp.center *= scale;
+    } else if (grasps[i].metres_per_unit != scale) {
+      grasp.center *= scale / grasps[i].metres_per_unit;
+    }
+    if (score.status == GivenScore::kOk) grasp.width = score.grasp.width;
+    grasp.quality = score.robust_quality;
+    grasp.candidate = grasps[i].candidate;
+    if (!scored.tried.empty()) {
+      grasp.executions = scored.tried[i].executions;
+      grasp.held = scored.tried[i].held;
+    }
+    set.grasps.push_back(std::move(grasp));
+  }
+  return set;
+}
 
 void TryGrasps(const TriangleMesh& mesh, std::uint64_t stream,
                const std::vector<GivenGrasp>& grasps, PhysicsTrials* trials, ScoredGrasps* scored) {
@@ -129,11 +179,15 @@ GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
                        const MetricOptions& trial_metric, const PhysicsTrialOptions& trial,
                        RunObserver* observer) {
   const ObjectSource objects(request.inputs, GridUnit::kOfFiles, UnitToReadIn(metric));
-  const ByObject by = Sort(ReadGivenGrasps(request.grasps), objects, request.grasps);
+  GraspsRead read = ReadGraspFiles(request.grasps, request.output.about.base, metric);
+  const bool of_mesh_files = read.of_mesh_files;
+  const ByObject by = Sort(std::move(read), objects, request.grasps);
+  GraspFiles grasp_files(request.output, objects);
   GivenReport report;
   GivenTable table(request.in_physics);
   UnlikelySizes sizes(metric);
-  std::string first;  // object that is not usable, and why
+  std::string first;         // object that is not usable, and why
+  int at_scale_of_file = 0;  // objects
   std::optional<AtomicFile> file;
   if (!request.out.empty()) file.emplace(request.out);
   // Objects side by side where there are many, else the executions of one.
@@ -143,7 +197,7 @@ GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
   StreamInOrder(
       objects.size(), many ? threads : 1,
       [&](std::int64_t i) {
-        const auto& grasps = by.grasps[static_cast<std::size_t>(i)];
+        std::vector<GivenGrasp> grasps = by.grasps[static_cast<std::size_t>(i)];
         ScoredGrasps scored;
         if (grasps.empty()) return scored;
         const InputObject object = objects.Load(i);
@@ -151,18 +205,29 @@ GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
         if (!object.note.empty()) scored.note = object.name + ": " + object.note;
         if (!object.ok()) return scored;
         scored.extent = Bounds(object.mesh).Extent();
-        RequireSameScale(object.name, object.mesh, grasps, metric, request.grasps);
-        scored.scores =
-            ScoreGivenGrasps(object.mesh, grasps, metric, request.seed, objects.stream(i));
-        if (!request.in_physics) return scored;
-        PhysicsTrials trials(trial_metric, trial, request.seed, many ? 1 : threads);
-        TryGrasps(object.mesh, objects.stream(i), grasps, &trials, &scored);
+        const MetricOptions its = of_mesh_files ? AtScaleOf(grasps, scored.extent, metric) : metric;
+        const double scale = MetresPerUnit(its, scored.extent);
+        for (GivenGrasp& grasp : grasps) {
+          if (of_mesh_files && !grasp.says_scale) grasp.metres_per_unit = scale;
+        }
+        scored.at_scale_of_file = its.object_min_extent != metric.object_min_extent;
+        RequireSameScale(object.name, object.mesh, grasps, its, request.grasps);
+        scored.scores = ScoreGivenGrasps(object.mesh, grasps, its, request.seed, objects.stream(i));
+        if (request.in_physics) {
+          MetricOptions its_trial = trial_metric;
+          its_trial.object_min_extent = its.object_min_extent;
+          PhysicsTrials trials(its_trial, trial, request.seed, many ? 1 : threads);
+          TryGrasps(object.mesh, objects.stream(i), grasps, &trials, &scored);
+        }
+        if (grasp_files.wanted()) scored.set = SetOf(object.name, scale, grasps, scored);
         return scored;
       },
       [&](std::int64_t i, const ScoredGrasps& scored) {
         const std::string& name = objects.name(i);
         table.Add(name, scored.status, by.grasps[static_cast<std::size_t>(i)], scored.scores,
                   scored.tried);
+        if (!scored.set.object.empty()) grasp_files.Add(i, scored.set);
+        at_scale_of_file += scored.at_scale_of_file ? 1 : 0;
         if (!scored.note.empty()) report.warnings.push_back(scored.note);
         if (!scored.extent.isZero()) sizes.Add(name, scored.extent);
         if (scored.scores.empty() && !scored.status.empty()) {
@@ -183,11 +248,16 @@ GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
   if (by.others > 0) {
     report.summary.push_back(std::to_string(by.others) + " grasps of other objects are left out");
   }
+  if (at_scale_of_file > 0) {
+    report.summary.push_back(std::to_string(at_scale_of_file) +
+                             " objects scored at the scale that " + request.grasps + " says");
+  }
   for (const std::string& text : sizes.Texts()) report.warnings.push_back(text);
   if (table.all_miss()) {
     report.warnings.emplace_back(
         "every grasp is beside its object: is the table in the unit and frame of the mesh?");
   }
+  for (std::string& text : grasp_files.Commit()) report.warnings.push_back(std::move(text));
   if (!file) return report;
   file->Commit();
   WriteFileAtomic(request.out + ".metric.toml", MetricToml(metric, request.seed));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "antigrasp/core/observer.h"
+#include "antigrasp/grasp_io/grasp_files.h"
 #include "antigrasp/quality/metric_options.h"
 #include "antigrasp/trial/physics_trial.h"
 
@@ -13,11 +14,13 @@ namespace antigrasp {
 // Grasps that somebody else planned, to be scored on their objects.
 struct GivenRequest {
   std::vector<std::string> inputs;  // objects
-  std::string grasps;               // their table (quality/given_grasps.h)
+  std::string grasps;               // a table (quality/given_grasps.h), or grasp_io/grasp_files.h
   std::string out;                  // table to write, OUT.metric.toml beside it; may be empty
   bool in_physics = false;          // each is executed, too
   std::uint64_t seed = 1;
   int threads = 0;
+  GraspOutput
+      output;  // of the grasps with their labels; `about.base` is of the gripper that scores
 };
 
 struct GivenReport {
@@ -29,8 +32,10 @@ struct GivenReport {
 // grasp, status, epsilon, robust_quality, width, reachable` and, in physics, `trial, pose,
 // executions, held` (docs/formats.md). `trial_metric`: the metric with what the protocol lays down
 // (ApplyProtocol). Rows of a table belong to the object of their name or file name, those without a
-// name to an only one. InputError, with nothing written, when none belongs to any, when no object
-// is usable, and for a table that says another metres_per_unit than the object is scored at.
+// name to an only one; those of a file of grasps to the object whose mesh it names, in whatever
+// folder, and that object is scored at the scale which the file says unless it keeps its size.
+// InputError, with nothing written, when none belongs to any, when no object is usable, and for
+// another metres_per_unit in the table than the object is scored at.
 GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
                        const MetricOptions& trial_metric, const PhysicsTrialOptions& trial,
                        RunObserver* observer);

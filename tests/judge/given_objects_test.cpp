@@ -7,13 +7,16 @@
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/grasp_io/grasp_json.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/quality/named_gripper.h"
 #include "tests/support/csv_rows.h"
 #include "tests/support/shapes.h"
 
 namespace antigrasp {
 namespace {
 
+using Eigen::Vector3d;
 using shapes::CsvRows;
 
 const std::string kHeader = "object,center_x,center_y,center_z,axis_x,axis_y,axis_z,width\n";
@@ -139,7 +142,79 @@ TEST_F(GivenObjects, GraspsBesideTheirObjectAreCountedAndWarnedOf) {
       std::string::npos);
 }
 
+// Boxes of 40 mm, which a call without --true-size would rescale to 40 mm as well; the file says
+// 0.9.
+TEST_F(GivenObjects, AFileOfGraspsNamesItsMeshAndTheScaleThatItIsFor) {
+  const auto file = [&](const std::string& object, double scale) {
+    GraspSet set{
+        object, scale, {}, {{"0", {0.0, 0.0, 0.0}, Vector3d::UnitX(), -Vector3d::UnitZ()}}};
+    GraspFileAbout about;
+    about.base = BaseOf("yumi");
+    return folder_.Write("g.json", GraspGenJson(set, about)).string();
+  };
+  const auto score = [&](double min_extent) {
+    metric_.object_min_extent = min_extent;
+    GivenRequest request;
+    request.inputs = {(folder_ / "b.stl").string(), (folder_ / "a.stl").string()};
+    request.grasps = (folder_ / "g.json").string();
+    request.output.about.base = BaseOf("yumi");
+    SilentObserver observer;
+    return ScoreGiven(request, metric_, metric_, options_, &observer);
+  };
+  file("meshes/a.stl", 0.0009);
+  const GivenReport report = score(0.04);
+  EXPECT_EQ(report.summary.back(),
+            "1 objects scored at the scale that " + (folder_ / "g.json").string() + " says");
+  const auto rows = CsvRows(folder_.Write("rows.csv", report.table));
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].at("object") + rows[0].at("status"), "a.stlok");
+  EXPECT_NEAR(std::stod(rows[0].at("width")), 0.036, 1e-9);
+  EXPECT_THROW(score(0.0), InputError);  // at true size, 0.001
+  file("meshes/a.stl", 0.001);
+  EXPECT_EQ(score(0.0).summary.size(), 2U);
+  file("c.stl", 0.001);
+  EXPECT_THROW(score(0.0), InputError);
+}
+
+TEST_F(GivenObjects, GivenGraspsAreWrittenAgainWithTheirLabels) {
+  GivenRequest request;
+  request.output.path = (folder_ / "g.h5").string();
+  request.output.about.base = BaseOf("yumi");
+  Score(kHeader + "a,0,0,0,0,1,0,\na,0,90,0,1,0,0,\na,nan,0,0,1,0,0,\n", {"a.stl"}, request);
+  const auto tree = Hdf5Tree::Open(folder_ / "g.h5");
+  const auto quality = tree->Numbers("/grasps/qualities/antigrasp/robust_quality")->values;
+  ASSERT_EQ(quality.size(), 2U);  // what has no pose is left out
+  EXPECT_GT(quality[0], 0.002);
+  EXPECT_EQ(quality[1], 0.0);
+  const auto held = tree->Numbers("/grasps/qualities/flex/object_in_gripper")->values;
+  EXPECT_EQ(held, (std::vector<double>{1.0, 0.0}));
+  EXPECT_NEAR(tree->Numbers("/grasps/qualities/antigrasp/width")->values[0], 0.045, 1e-9);
+}
+
 #ifdef ANTIGRASP_HAS_MUJOCO
+// The label is the trial's, whatever the quality; both are kept.
+TEST_F(GivenObjects, AFileOfTriedGraspsHasWhatWasHeld) {
+  GivenRequest request;
+  request.in_physics = true;
+  request.output.path = (folder_ / "g.h5").string();
+  request.output.about.base = BaseOf("yumi");
+  request.output.about.success_quality = 1e9;
+  request.output.about.protocol = "six-ways";
+  metric_.object_translation_std = metric_.grasp_translation_std = 0.0;
+  const std::string table =
+      "center_x,center_y,center_z,axis_x,axis_y,axis_z,approach_x,approach_y,approach_z\n"
+      "0,0,0,1,0,0,0,0,-1\n0,70,0,1,0,0,0,0,-1\n";
+  Score(table, {"a.stl"}, request);
+  const auto tree = Hdf5Tree::Open(folder_ / "g.h5");
+  const auto of = [&](const std::string& name) {
+    return tree->Numbers("/grasps/qualities/" + name)->values;
+  };
+  EXPECT_EQ(of("flex/object_in_gripper"), (std::vector<double>{1.0, 0.0}));
+  EXPECT_EQ(of("antigrasp/executions"), (std::vector<double>{2.0, 2.0}));
+  EXPECT_EQ(of("antigrasp/held"), (std::vector<double>{2.0, 0.0}));
+  EXPECT_GT(of("antigrasp/robust_quality")[0], 0.0);
+}
+
 // A grasp across the box is held, one beside it is not touched, and one that comes from the corner
 // is reached in no pose. Two executions each.
 TEST_F(GivenObjects, InPhysicsEveryGraspHasItsOwnShareHeld) {
