@@ -13,10 +13,9 @@
 #include "antigrasp/core/ordered_stream.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/datasets/result_folder.h"
+#include "antigrasp/export/print_files.h"
 #include "antigrasp/export/print_place.h"
 #include "antigrasp/judge/score_objects.h"
-#include "antigrasp/mesh/mesh_file.h"
-#include "antigrasp/mesh/mesh_format.h"
 #include "antigrasp/quality/object_size.h"
 #include "antigrasp/quality/sampling_effort.h"
 
@@ -48,8 +47,8 @@ struct ExportFlags {
 PlacedSolid Place(const InputObject& object, const ExportFlags& flags,
                   const PrintOptions& options) {
   if (!object.ok()) return {{object.name, "", {}}, object.status, {}};
-  return PlaceForPrint(object.name, FileNameOf(object.name) + "." + flags.format, object.mesh,
-                       flags.SizeOf(object.mesh), flags.pose, options);
+  return PlaceForPrint(object.name, PrintFiles::FileOf(FileNameOf(object.name), flags.format),
+                       object.mesh, flags.SizeOf(object.mesh), flags.pose, options);
 }
 
 // The hardest objects, and their scores into the folder.
@@ -80,8 +79,10 @@ void Export(const ExportFlags& flags, const PrintOptions& options,
   metric_flags.RaiseEffort(objects.size(), &scoring.metric);
   const std::filesystem::path out = flags.out;
   RequireNotRead(metric_flags.gripper(), {out / kScores, out / kConstants});
-  ResultFolder results(flags.out, {"print.csv", {kScores, kConstants}, {"NAME." + flags.format}},
-                       objects, flags.overwrite);
+  ResultFolder results(
+      flags.out, {"print.csv", {kScores, kConstants, PrintFiles::kPlate}, {"NAME." + flags.format}},
+      objects, flags.overwrite);
+  PrintFiles files(results.path(), flags.format);
   std::vector<std::int64_t> places(static_cast<std::size_t>(objects.size()));
   std::iota(places.begin(), places.end(), 0);
   if (flags.hardest > 0) places = ChooseHardest(objects, flags, scoring, results.path());
@@ -104,7 +105,7 @@ void Export(const ExportFlags& flags, const PrintOptions& options,
           refusals.push_back(item.printed.name + ": " + item.refusal);
           return;
         }
-        WriteMesh(results.path() / item.printed.file, item.mesh);
+        files.Add(item.printed.name, item.printed.file, item.mesh);
         const PrintCheck& check = item.printed.check;
         if (flags.true_size) sizes.Add(item.printed.name, check.size_mm / check.mm_per_unit);
         solids.Add(std::move(item.printed));
@@ -115,6 +116,7 @@ void Export(const ExportFlags& flags, const PrintOptions& options,
     throw InputError(refusals.front(), flags.inputs.front(), "a closed solid");
   for (const std::string& refusal : refusals) spdlog::warn("not exported: {}", refusal);
   for (const std::string& size : sizes.Texts()) spdlog::warn("{}", size);
+  files.Close();
   results.Commit(solids.TakeText());
   std::printf("%zu of %zu objects in %s, ", solids.size(), solids.size() + refusals.size(),
               flags.out.c_str());
@@ -135,8 +137,10 @@ void AddExportCommand(CLI::App* app) {
   command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
   command->add_option("--out", flags->out, "folder of the meshes and print.csv")->required();
   AddOverwrite(command, &flags->overwrite);
-  command->add_option("--format", flags->format, Alternatives(WritableExtensions()))
-      ->check(CLI::IsMember(WritableExtensions()))
+  command
+      ->add_option("--format", flags->format,
+                   Alternatives(ExportFormats()) + "; 3mf: all of them on one plate, plate.3mf")
+      ->check(CLI::IsMember(ExportFormats()))
       ->capture_default_str();
   command->add_option("--size-mm", flags->size_mm, "largest extent in the object's own frame, mm")
       ->check(NumberIn(0.001, 1e5))
