@@ -19,7 +19,7 @@ namespace {
 using Eigen::Matrix4d;
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostYaml = std::size_t{16} << 20;  // a node takes some hundred
+constexpr std::size_t kMostYaml = std::size_t{8} << 20;  // a value of one letter takes 240
 constexpr const char* kFormat = "isaac_grasp";
 
 // YAML 1.1, which PyYAML reads, takes 1e-05 for a text: a number has a point.
@@ -68,7 +68,7 @@ class IsaacGrasps {
   IsaacGrasps(const std::string& path, const GripperBase& base, const MetricOptions& metric)
       : path_(path), frame_(LinkFrame(base, metric)) {
     const std::string text = ReadFile(path);
-    if (text.size() > kMostYaml) Fail("YAML larger than 16 MiB", "the grasps of one object");
+    if (text.size() > kMostYaml) Fail("YAML larger than 8 MiB", "the grasps of one object");
     try {
       root_ = YAML::Load(text);
     } catch (const YAML::Exception& error) {

@@ -416,6 +416,29 @@ TEST(EvaluateCli, GraspsThatItWroteScoreTheSameAgainToTheLastBit) {
   EXPECT_FALSE(fs::exists(folder / "again.csv.trial.toml"));
 }
 
+// By extension and by name; both objects of the call, in a file each or in one.
+TEST(EvaluateCli, GraspsOfSeveralObjectsGoIntoAFolderOfFilesThatAreReadAgain) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteMovedBox(folder / "box.stl");
+  WriteMesh(folder / "torus.stl", shapes::Torus(1.0, 0.4, 24, 12));
+  const std::string common = "evaluate " + dir + "box.stl " + dir + "torus.stl --gripper panda" +
+                             " --num-grasps 8 --num-draws 2 ";
+  for (const std::string flags : {"all.hdf5", "set --grasp-format isaac"}) {
+    ASSERT_EQ(Antigrasp(common + "--grasps " + dir + flags).code, 0) << flags;
+    const Outcome again =
+        Antigrasp(common + "--grasps-in " + dir + flags.substr(0, flags.find(' ')));
+    EXPECT_NE(again.text.find("16 grasps of 2 objects: 16 ok\n"), std::string::npos) << again.text;
+  }
+  EXPECT_TRUE(fs::exists(folder / "set/torus.yaml"));
+  cli::ExpectRefused(common + "--grasps " + dir + "set --grasp-format isaac", "an empty folder");
+  cli::ExpectRefused(common + "--grasps " + dir + "g.json", "2 objects in one file");
+  cli::ExpectRefused(common + "--grasp-format csv", "--grasp-format requires --grasps");
+  cli::ExpectRefused(common + "--success-quality 0.1", "--success-quality requires --grasps");
+  cli::ExpectRefused("evaluate " + dir + "box.stl --grasps-in " + dir + "all.hdf5",
+                     "grasps of the gripper panda, scored with yumi");
+}
+
 TEST(EvaluateCli, RefusesGivenGraspsAndJudgesThatCannotBeInOneLine) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/";

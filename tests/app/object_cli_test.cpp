@@ -132,6 +132,21 @@ TEST(ObjectCli, InfoDescribesAMesh) {
   ExpectLine(crossed, "  components         2");
 }
 
+TEST(ObjectCli, ExportPutsAllObjectsOnOnePlateAndReplacesItWhenAsked) {
+  const TempFolder folder;
+  const std::string dir = folder.path().string() + "/";
+  WriteMesh(folder / "a.stl", shapes::Box({40.0, 20.0, 10.0}));
+  WriteMesh(folder / "b.stl", shapes::Cube());
+  const std::string both = "export " + dir + "a.stl " + dir + "b.stl --format 3mf --out " + dir;
+  ASSERT_EQ(Antigrasp(both + "out").code, 0);
+  EXPECT_EQ(shapes::CountFiles(folder / "out"), 2);
+  EXPECT_EQ(ReadMesh(folder / "out/plate.3mf").faces.size(), 24U);
+  cli::ExpectRefused(both + "out", "holds print.csv already");
+  ASSERT_EQ(Antigrasp("export " + dir + "b.stl --overwrite --format 3mf --out " + dir + "out").code,
+            0);
+  EXPECT_EQ(ReadMesh(folder / "out/plate.3mf").faces.size(), 12U);
+}
+
 TEST(ObjectCli, ExportSaysHowATiltedSlabIsPrinted) {
   // A slab of 1 x 2 x 4 turned about a skew axis: 4 is its longest side, but not its largest
   // extent. It lies best on its largest side.

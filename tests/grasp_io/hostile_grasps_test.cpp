@@ -57,7 +57,7 @@ TEST_F(HostileGrasps, OfIsaacAreRefusedInALine) {
             "object_scale = -1");
   const std::string nested(100000, '[');
   EXPECT_EQ(WhyNot("a.yaml", kIsaac + "grasps: " + nested).substr(0, 12), "damaged YAML");
-  EXPECT_EQ(WhyNot("a.yaml", std::string(17 << 20, ' ')), "YAML larger than 16 MiB");
+  EXPECT_EQ(WhyNot("a.yaml", std::string(9 << 20, ' ')), "YAML larger than 8 MiB");
 }
 
 TEST_F(HostileGrasps, OfJsonAreRefusedInALine) {
