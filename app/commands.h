@@ -23,6 +23,7 @@ void AddSheetCommand(CLI::App* app);
 void AddReportCommand(CLI::App* app);  // not in a build without the report's page
 void AddFigureCommand(CLI::App* app);
 void AddExportCommand(CLI::App* app);
+void AddBundleCommand(CLI::App* app);
 void AddGeneratorCommand(CLI::App* app);
 void AddInfoCommand(CLI::App* app);         // of meshes and SDF files; else the next
 void AddNetworkInfoCommand(CLI::App* app);  // of checkpoints and runs

@@ -30,6 +30,7 @@ void AddCommands(CLI::App* app) {
 #endif
   Name(kFigure, app);
   AddExportCommand(app);
+  AddBundleCommand(app);
   Name(kGenerator, app);
   AddInfoCommand(app);
 }

@@ -20,7 +20,10 @@ bool IsThere(const fs::path& path) {
 void AddFilesOf(const std::string& object, const ResultFiles& files, Paths* paths) {
   constexpr std::string_view kName = "NAME";
   for (std::string path : files.of_object) {
-    path.replace(path.find(kName), kName.size(), FileNameOf(object));
+    const std::string name = FileNameOf(object);
+    for (std::size_t at = 0; (at = path.find(kName, at)) != std::string::npos; at += name.size()) {
+      path.replace(at, kName.size(), name);
+    }
     paths->emplace_back(path);
   }
 }

@@ -18,7 +18,7 @@ struct ResultFiles {
   // in a column `file` (no folders), or by `object` and the patterns below.
   std::string table;
   std::vector<std::string> of_call;  // "sheet.png"
-  // NAME stands for FileNameOf(object): "NAME.stl", "after/NAME.ply".
+  // NAME stands for FileNameOf(object): "NAME.stl", "after/NAME.ply", "NAME/NAME.xml".
   std::vector<std::string> of_object;
 };
 

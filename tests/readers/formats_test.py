@@ -121,6 +121,8 @@ class Formats(unittest.TestCase):
         self.call("export", "batch.h5", "--out", "e")
         self.assertEqual(without_judge(listed_columns(section("Perturbed objects"))), self.header("p/perturb.csv"))
         self.assertEqual(list(expanded(listed_columns(section("Print check")))), self.header("e/print.csv"))
+        self.call("bundle", "box.obj", "open.obj", "--out", "b")
+        self.assertEqual(list(expanded(listed_columns(section("Bundles")))), self.header("b/bundle.csv"))
         means = section("Means")
         self.assertEqual(without_judge(listed_columns(means[means.index("Of perturbed objects"):])), self.header("p/summary.csv"))
 

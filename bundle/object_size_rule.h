@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "antigrasp/mesh/triangle_mesh.h"
+
+namespace antigrasp {
+
+// The sides of the smallest of the boxes that lie flush with a facet of the convex hull, rising
+// (trimesh's oriented bounds, which EGAD takes). Mesh's unit; zero for a flat mesh.
+Eigen::Vector3d OrientedExtents(const TriangleMesh& mesh);
+
+// Metres per unit by EGAD's rule, for a gripper that opens `opening` metres (prepare_meshes.py of
+// dougsm/egad 264ac92): longest side = opening, then the shortest at most 0.8 of it.
+double EgadScale(const Eigen::Vector3d& oriented_extents, double opening);
+
+}  // namespace antigrasp
