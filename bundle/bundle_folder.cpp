@@ -70,10 +70,10 @@ class Bundler {
       made.status = LengthText(width) + " wide where it is narrowest: the gripper opens " +
                     LengthText(opening_);
     } else {
-      made.bundle = MakeObjectBundle(
-          FileNameOf(object.name),
-          Transformed(object.mesh, made.metres_per_unit, Eigen::Vector3d::Zero()),
-          request_.options);
+      made.bundle =
+          MakeObjectBundle(FileNameOf(object.name),
+                           Transformed(object.mesh, made.metres_per_unit, Eigen::Vector3d::Zero()),
+                           request_.options);
     }
     return made;
   }

@@ -23,22 +23,31 @@ std::string BundleReadme(const ObjectBundle& bundle, BundleTarget target) {
   std::string text = "# " + bundle.name + "\n\n";
   text += "Metres, kilograms, seconds; the axes and the origin of the object's own file.\n\n";
   text += Line("- size %.2f x %.2f x %.2f mm\n", extent.x(), extent.y(), extent.z());
-  text += Line("- mass %.6g kg, centre of mass (%.4f, %.4f, %.4f) mm: exact integrals over the mesh, written in every file\n",
-               bundle.mass, center.x(), center.y(), center.z());
+  text += Line(
+      "- mass %.6g kg, centre of mass (%.4f, %.4f, %.4f) mm: exact integrals over the mesh, "
+      "written in every file\n",
+      bundle.mass, center.x(), center.y(), center.z());
   text += Line("- friction %g between the object and what touches it\n", bundle.friction);
-  text += Line("- %zu convex parts: they cover %.2f %% of the volume too much and miss %.2f %%; Hausdorff distance %.2f mm, deepest dent covered %.2f mm (a cell of a 32^3 grid is %.2f mm)\n",
-               bundle.parts.size(), 100.0 * bundle.errors.covered, 100.0 * bundle.errors.missing,
-               1000.0 * bundle.errors.hausdorff, 1000.0 * bundle.errors.dent, 1000.0 * bundle.cell);
-  text += "\n" + bundle.name + ".stl is what is seen, " + bundle.name + "_part_*.stl is what collides.\n\n";
+  text += Line(
+      "- %zu convex parts: they cover %.2f %% of the volume too much and miss %.2f %%; Hausdorff "
+      "distance %.2f mm, deepest dent covered %.2f mm (a cell of a 32^3 grid is %.2f mm)\n",
+      bundle.parts.size(), 100.0 * bundle.errors.covered, 100.0 * bundle.errors.missing,
+      1000.0 * bundle.errors.hausdorff, 1000.0 * bundle.errors.dent, 1000.0 * bundle.cell);
+  text += "\n" + bundle.name + ".stl is what is seen, " + bundle.name +
+          "_part_*.stl is what collides.\n\n";
   if (IsFor(target, BundleTarget::kMujoco)) {
     text += "MuJoCo (2.2.2 and 3.14 tried): `" + bundle.name +
-            ".xml`, to load or to include. Its friction goes before that of what touches it (priority 1). For grasps set cone=\"elliptic\" and noslip_iterations=\"10\": else what is held creeps down.\n"
+            ".xml`, to load or to include. Its friction goes before that of what touches it "
+            "(priority 1). For grasps set cone=\"elliptic\" and noslip_iterations=\"10\": else "
+            "what is held creeps down.\n"
             "Self-check, the left box (friction 0.14) falls, the right one (0.16) stays:\n\n"
             "    python3 -m mujoco.viewer --mjcf=self_check.xml\n\n";
   }
   if (IsFor(target, BundleTarget::kUrdf)) {
     text += "URDF: `" + bundle.name +
-            ".urdf`. Bullet multiplies the frictions of a pair: give what touches the object 1. In hand size and metres Bullet's single precision tilts contact normals: build it in double precision. A URDF holds no scene, so there is no self-check beside it.\n\n";
+            ".urdf`. Bullet multiplies the frictions of a pair: give what touches the object 1. In "
+            "hand size and metres Bullet's single precision tilts contact normals: build it in "
+            "double precision. A URDF holds no scene, so there is no self-check beside it.\n\n";
   }
   return text;
 }

@@ -22,8 +22,7 @@ struct Lines {
   static std::pair<int, int> Range(double low, double high, double start, double step) {
     const double first = std::ceil((low - start) / step - 0.5);
     const double last = std::floor((high - start) / step - 0.5);
-    return {static_cast<int>(std::max(first, 0.0)),
-            static_cast<int>(std::min(last, kLines - 1.0))};
+    return {static_cast<int>(std::max(first, 0.0)), static_cast<int>(std::min(last, kLines - 1.0))};
   }
 };
 
@@ -41,18 +40,17 @@ class Columns {
 
   void AddFace(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     const Point2 p{a.y(), a.z()}, q{b.y(), b.z()}, r{c.y(), c.z()};
-    ForLines({{a.cwiseMin(b).cwiseMin(c)}, {a.cwiseMax(b).cwiseMax(c)}},
-             [&](double y, double z, Column* column) {
-               // A line through an edge meets one of the two faces.
-               const Point2 at{y, z};
-               const int pq = Orient2dSignPerturbed(p, q, at), qr = Orient2dSignPerturbed(q, r, at),
-                         rp = Orient2dSignPerturbed(r, p, at);
-               if (pq == 0 || pq != qr || qr != rp) return;
-               const Vector3d normal = (b - a).cross(c - a);
-               const double x =
-                   a.x() - (normal.y() * (y - a.y()) + normal.z() * (z - a.z())) / normal.x();
-               column->push_back({x, -pq, 0});  // seen along x: faces towards -x open
-             });
+    ForLines({{a.cwiseMin(b).cwiseMin(c)}, {a.cwiseMax(b).cwiseMax(c)}}, [&](double y, double z,
+                                                                             Column* column) {
+      // A line through an edge meets one of the two faces.
+      const Point2 at{y, z};
+      const int pq = Orient2dSignPerturbed(p, q, at), qr = Orient2dSignPerturbed(q, r, at),
+                rp = Orient2dSignPerturbed(r, p, at);
+      if (pq == 0 || pq != qr || qr != rp) return;
+      const Vector3d normal = (b - a).cross(c - a);
+      const double x = a.x() - (normal.y() * (y - a.y()) + normal.z() * (z - a.z())) / normal.x();
+      column->push_back({x, -pq, 0});  // seen along x: faces towards -x open
+    });
   }
 
   void AddPart(const ConvexPart& part) {

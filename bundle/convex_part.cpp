@@ -58,7 +58,8 @@ ConvexPart MakeConvexPart(const std::vector<Eigen::Vector3d>& points) {
   const double size = part.box.Extent().norm();
   for (std::size_t f = 0; f < part.mesh.faces.size(); ++f) {
     const Eigen::Vector3d cross = FaceCross(part.mesh, f);
-    if (!(cross.norm() > kOnePlane * kOnePlane * size * size)) continue;  // an edge's neighbours say more
+    if (!(cross.norm() > kOnePlane * kOnePlane * size * size))
+      continue;  // an edge's neighbours say more
     HalfSpace plane{cross.normalized(), 0.0};
     plane.offset =
         plane.normal.dot(part.mesh.vertices[static_cast<std::size_t>(part.mesh.faces[f][0])]);

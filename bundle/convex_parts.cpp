@@ -21,15 +21,15 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kEdge = 1.5;        // cells: longest edge of the surface that is cut
-constexpr double kNear = 2.5;        // cells: whose faces say how a dent runs
-constexpr int kTurns = 8;            // planes through a dent, about its line
-constexpr std::size_t kPlaces = 3;   // dents at which a piece may be cut
-constexpr double kDeep = 0.6;        // of the deepest
+constexpr double kEdge = 1.5;         // cells: longest edge of the surface that is cut
+constexpr double kNear = 2.5;         // cells: whose faces say how a dent runs
+constexpr int kTurns = 8;             // planes through a dent, about its line
+constexpr std::size_t kPlaces = 3;    // dents at which a piece may be cut
+constexpr double kDeep = 0.6;         // of the deepest
 constexpr double kSliver = 1e-4;      // of the volume: less is no piece
 constexpr double kUnlike = 0.01;      // what a difference of volumes costs beside volume
 constexpr double kLess = 1.0 - 1e-9;  // sums over hulls differ in their last bits from call to call
-constexpr int kMorePieces = 2;       // than parts, before they are joined
+constexpr int kMorePieces = 2;        // than parts, before they are joined
 
 struct Node {
   SolidPiece piece;
@@ -64,7 +64,8 @@ DentFrame FrameAt(const Vector3d& place, const SurfacePoints& surface, double ra
   }
   frame.across = Eigen::SelfAdjointEigenSolver<Matrix3d>(turning).eigenvectors().col(2);
   frame.across -= frame.out * frame.out.dot(frame.across);
-  frame.across = frame.across.norm() > 1e-9 ? frame.across.normalized() : frame.out.unitOrthogonal();
+  frame.across =
+      frame.across.norm() > 1e-9 ? frame.across.normalized() : frame.out.unitOrthogonal();
   Vector3d walls[2] = {Vector3d::Zero(), Vector3d::Zero()};
   for (const Vector3d* cross : near) walls[cross->dot(frame.across) > 0.0 ? 1 : 0] += *cross;
   frame.wall1 = walls[0].norm() > 0.0 ? walls[0].normalized() : frame.out;
@@ -104,8 +105,8 @@ class Cutter {
           [](const Node& a, const Node& b) { return a.deepest.depth < b.deepest.depth; });
       Node node = std::move(*deepest);
       nodes.erase(deepest);
-      const bool cut = node.deepest.depth > dent &&
-                       static_cast<int>(nodes.size() + done.size()) + 2 <= most;
+      const bool cut =
+          node.deepest.depth > dent && static_cast<int>(nodes.size() + done.size()) + 2 <= most;
       if (cut && CutNode(node, &nodes)) continue;
       if (!node.hull.empty()) done.push_back(std::move(node.hull));
     }
@@ -121,15 +122,14 @@ class Cutter {
     return node;
   }
 
-  // By the plane that leaves the least volume of hulls, the more alike the two the better: no single
-  // cut makes the hulls of a ring smaller. False when none cuts the piece.
+  // By the plane that leaves the least volume of hulls, the more alike the two the better: no
+  // single cut makes the hulls of a ring smaller. False when none cuts the piece.
   bool CutNode(const Node& node, std::vector<Node>* nodes) const {
     const InsideTest inside = [&](const Vector3d& point) { return solid_.Inside(point); };
     double least = std::numeric_limits<double>::max();
     HalfSpace best;
     for (const Vector3d& place : DeepPlaces(node.hull, surface_, node.deepest, kDeep, kPlaces)) {
-      for (const HalfSpace& plane :
-           PlanesThrough(place, FrameAt(place, surface_, kNear * cell_))) {
+      for (const HalfSpace& plane : PlanesThrough(place, FrameAt(place, surface_, kNear * cell_))) {
         const auto sides = HullPointsOfSides(node.piece, plane, inside);
         const double behind = AboutHullVolume(sides[0]), before = AboutHullVolume(sides[1]);
         const double cost = behind + before + kUnlike * std::abs(behind - before);

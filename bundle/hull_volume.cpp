@@ -25,9 +25,9 @@ Directions MakeDirections() {
 
 }  // namespace
 
-double AboutHullVolume(const std::vector<Eigen::Vector3d>& points) {
+std::vector<Eigen::Vector3d> FurthestPoints(const std::vector<Eigen::Vector3d>& points) {
   static const Directions directions = MakeDirections();
-  if (points.size() < 4) return 0.0;
+  if (points.empty()) return {};
   Eigen::Matrix<double, kDirections, 1> reach = directions * points[0];
   std::vector<std::size_t> furthest(kDirections, 0);
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -44,7 +44,11 @@ double AboutHullVolume(const std::vector<Eigen::Vector3d>& points) {
   furthest.erase(std::unique(furthest.begin(), furthest.end()), furthest.end());
   std::vector<Eigen::Vector3d> chosen;
   for (const std::size_t i : furthest) chosen.push_back(points[i]);
-  return Volume(ConvexHull(chosen));
+  return chosen;
+}
+
+double AboutHullVolume(const std::vector<Eigen::Vector3d>& points) {
+  return Volume(ConvexHull(FurthestPoints(points)));
 }
 
 }  // namespace antigrasp

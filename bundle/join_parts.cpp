@@ -2,20 +2,21 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <utility>
+
+#include "antigrasp/bundle/hull_volume.h"
 
 namespace antigrasp {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr std::size_t kMiddles = 60, kStrideA = 7, kStrideB = 13;
-constexpr double kHeld = 1e-6;      // of the size
-constexpr double kHopeless = 3.0;  // dents
+constexpr std::size_t kMiddles = 150, kStrideA = 7, kStrideB = 13;
+constexpr double kHeld = 1e-6;     // of the size
+constexpr double kHopeless = 1.2;  // dents
 
 struct Joint {
-  ConvexPart hull;
-  double depth = 0.0;
+  ConvexPart hull;     // empty where it covers too deep a dent
+  double depth = 0.0;  // of the deepest dent, then at least
 };
 
 // Whether the part is in the other one, but for rounding.
@@ -31,7 +32,11 @@ class Joiner {
  public:
   Joiner(std::vector<ConvexPart> parts, const SurfacePoints& surface, const SolidTest& solid,
          double dent)
-      : parts_(std::move(parts)), surface_(surface), solid_(solid), air_(kHopeless * dent) {
+      : parts_(std::move(parts)),
+        surface_(surface),
+        solid_(solid),
+        dent_(dent),
+        air_(kHopeless * dent) {
     JoinAll();
   }
 
@@ -47,14 +52,14 @@ class Joiner {
   std::size_t size() const { return parts_.size(); }
   std::vector<ConvexPart> Take() { return std::move(parts_); }
 
-  // Of the pairs whose hull covers no deeper dent than `dent` the largest; else the shallowest one.
-  std::pair<std::size_t, std::size_t> Best(double dent) const {
+  // Of the pairs whose hull covers no deeper dent than that the largest; else the shallowest one.
+  std::pair<std::size_t, std::size_t> Best() const {
     std::pair<std::size_t, std::size_t> best{1, 0};
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         const Joint& now = joints_[best.first][best.second];
         const Joint& other = joints_[i][j];
-        const bool better = other.depth > dent || now.depth > dent
+        const bool better = other.depth > dent_ || now.depth > dent_
                                 ? other.depth < now.depth
                                 : other.hull.volume > now.hull.volume;
         if (better) best = {i, j};
@@ -68,7 +73,8 @@ class Joiner {
 
   void JoinPair(std::pair<std::size_t, std::size_t> pair) {
     auto [i, j] = pair;  // j < i
-    parts_[j] = std::move(joints_[i][j].hull);
+    ConvexPart hull = std::move(joints_[i][j].hull);
+    parts_[j] = hull.empty() ? MakeConvexPart(CornersOf(i, j)) : std::move(hull);
     Erase(i);
     for (std::size_t k = parts_.size(); k-- > 0;) {
       if (k != j && Holds(parts_[j], parts_[k])) {
@@ -89,10 +95,18 @@ class Joiner {
     }
   }
 
-  Joint Join(std::size_t i, std::size_t j) const {
-    if (BetweenInAir(parts_[i].mesh.vertices, parts_[j].mesh.vertices)) return {{}, kNever};
+  std::vector<Eigen::Vector3d> CornersOf(std::size_t i, std::size_t j) const {
     std::vector<Eigen::Vector3d> points = parts_[i].mesh.vertices;
     points.insert(points.end(), parts_[j].mesh.vertices.begin(), parts_[j].mesh.vertices.end());
+    return points;
+  }
+
+  // Most pairs are hopeless, and few of their corners show it.
+  Joint Join(std::size_t i, std::size_t j) const {
+    if (BetweenInAir(parts_[i].mesh.vertices, parts_[j].mesh.vertices)) return {{}, kNever};
+    const std::vector<Eigen::Vector3d> points = CornersOf(i, j);
+    const double least = DeepestIn(MakeConvexPart(FurthestPoints(points)), surface_, 0.0).depth;
+    if (least > dent_) return {{}, least};
     Joint joint{MakeConvexPart(points), 0.0};
     joint.depth = DeepestIn(joint.hull, surface_, 0.0).depth;
     return joint;
@@ -112,7 +126,7 @@ class Joiner {
   std::vector<ConvexPart> parts_;
   const SurfacePoints& surface_;
   const SolidTest& solid_;
-  double air_;
+  double dent_, air_;
   std::vector<std::vector<Joint>> joints_;  // of i and j < i
 };
 
@@ -122,7 +136,7 @@ std::vector<ConvexPart> JoinParts(std::vector<ConvexPart> parts, const SurfacePo
                                   const SolidTest& solid, double dent, int most) {
   Joiner joiner(std::move(parts), surface, solid, dent);
   while (joiner.size() > 1) {
-    const auto best = joiner.Best(dent);
+    const auto best = joiner.Best();
     if (joiner.Depth(best) > dent && joiner.size() <= static_cast<std::size_t>(most)) break;
     if (joiner.Depth(best) == kNever) {
       joiner.JoinAll();

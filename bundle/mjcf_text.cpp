@@ -7,9 +7,9 @@
 namespace antigrasp {
 namespace {
 
-constexpr double kPinch = 1.0;                        // N
-constexpr double kBox = 0.04, kBall = 0.005;          // m
-constexpr double kBoxMass = 0.03, kBallMass = 0.05;   // kg
+constexpr double kPinch = 1.0;                       // N
+constexpr double kBox = 0.04, kBall = 0.005;         // m
+constexpr double kBoxMass = 0.03, kBallMass = 0.05;  // kg
 
 void AddPinch(const std::string& name, double y, const std::string& friction, XmlWriter* xml) {
   const double out = 0.5 * kBox + kBall;
@@ -57,8 +57,7 @@ std::string MjcfText(const ObjectBundle& bundle) {
   xml.Leaf("inertial",
            {{"pos", NumbersText(bundle.center)},
             {"mass", FormatDouble(bundle.mass)},
-            {"fullinertia",
-             NumbersText({i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)})}});
+            {"fullinertia", NumbersText({i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)})}});
   xml.Leaf("geom", {{"type", "mesh"},
                     {"mesh", bundle.name},
                     {"group", "2"},

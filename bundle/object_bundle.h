@@ -16,12 +16,12 @@ struct ObjectBundle {
   std::string name;  // a file name; XML escapes it
   TriangleMesh mesh;
   std::vector<ConvexPart> parts;
-  PartErrors errors;   // lengths in metres
-  double cell = 0.0;   // CellOf, metres
+  PartErrors errors;  // lengths in metres
+  double cell = 0.0;  // CellOf, metres
   double friction = 0.0;
   double mass = 0.0;
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();    // of mass
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();   // about it, along the object's axes; kg m2
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();   // of mass
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about it, along the object's axes; kg m2
 
   std::string PartName(std::size_t i) const;  // "mug_part_07"
 };

@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kApart = 0.25;   // cells between the points of a surface
-constexpr double kTouch = 1e-4;   // of a cell: what lies no deeper in a part is on its surface
+constexpr double kApart = 0.25;  // cells between the points of a surface
+constexpr double kTouch = 1e-4;  // of a cell: what lies no deeper in a part is on its surface
 
 // The surface of the union of the parts.
 class UnionSurface {
@@ -37,13 +37,13 @@ class UnionSurface {
   }
 
   bool Inside(const Vector3d& point) const {
-    return std::any_of(parts_.begin(), parts_.end(), [&](const ConvexPart& part) {
-      return part.Depth(point, touch_) > touch_;
-    });
+    return std::any_of(parts_.begin(), parts_.end(),
+                       [&](const ConvexPart& part) { return part.Depth(point, touch_) > touch_; });
   }
 
-  // How far the point lies from the union's surface, no less; something up to `enough` when it is no deeper.
-  // The foot of a perpendicular on a plane is on the union's surface when no part is before it.
+  // How far the point lies from the union's surface, no less; something up to `enough` when it is
+  // no deeper. The foot of a perpendicular on a plane is on the union's surface when no part is
+  // before it.
   double Distance(const Vector3d& point, double enough, const std::vector<Vector3d>& points) const {
     double least = std::numeric_limits<double>::max();
     bool inside = false;
@@ -59,7 +59,8 @@ class UnionSurface {
       std::sort(nearest.begin(), nearest.end());
       for (const auto& [depth, k] : nearest) {
         const Vector3d foot = point + depth * part.planes[k].normal;
-        if (!OnPart(foot, part) || Covered(foot + 2.0 * touch_ * part.planes[k].normal, i)) continue;
+        if (!OnPart(foot, part) || Covered(foot + 2.0 * touch_ * part.planes[k].normal, i))
+          continue;
         least = std::min(least, depth);
         break;
       }

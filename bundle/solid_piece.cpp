@@ -30,7 +30,8 @@ class EdgePoints {
   std::int32_t At(std::int32_t a, std::int32_t b) {
     if (a > b) std::swap(a, b);
     const auto key = static_cast<std::uint64_t>(a) << 32U | static_cast<std::uint32_t>(b);
-    const auto [place, is_new] = number_.try_emplace(key, static_cast<std::int32_t>(points_.size()));
+    const auto [place, is_new] =
+        number_.try_emplace(key, static_cast<std::int32_t>(points_.size()));
     if (is_new) {
       const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
       const double t = heights_[i] / (heights_[i] - heights_[j]);

@@ -25,7 +25,7 @@ class XmlWriter {
   void Close();
   void Leaf(std::string_view element, const Attributes& attributes);
   void Text(std::string_view element, std::string_view text);  // <element>text</element>
-  std::string Take();  // every element closed
+  std::string Take();                                          // every element closed
 
  private:
   std::string Start(std::string_view element, const Attributes& attributes) const;

@@ -25,14 +25,14 @@ TEST(ObjectBundle, HasTheMassOfItsSolidAtADensity) {
   const ObjectBundle bundle = LBundle("l");
   EXPECT_NEAR(bundle.mass, 0.024, 1e-12);
   // Arms of 8 and 16 cm3: (20, 10) and (10, 30) mm by 16 and 8 g, then moved.
-  EXPECT_TRUE(bundle.center.isApprox(
-      Eigen::Vector3d(.01 + .05 / 3, -.02 + .05 / 3, .03), 1e-9));
+  EXPECT_TRUE(bundle.center.isApprox(Eigen::Vector3d(.01 + .05 / 3, -.02 + .05 / 3, .03), 1e-9));
 }
 
 TEST(ObjectBundle, OfAMassHasTheInertiaOfThatMass) {
   BundleOptions options;
   options.mass = 6.0;
-  const ObjectBundle bundle = MakeObjectBundle("box", shapes::Away(shapes::Box({1, 2, 3})), options);
+  const ObjectBundle bundle =
+      MakeObjectBundle("box", shapes::Away(shapes::Box({1, 2, 3})), options);
   EXPECT_EQ(bundle.mass, 6.0);
   // m / 12 (b2 + c2)
   EXPECT_TRUE(bundle.inertia.isApprox(
@@ -106,8 +106,9 @@ TEST(BundleReadme, StatesTheErrorsOfTheParts) {
   bundle.errors = {0.0125, 0.0025, 0.0015, 0.00125};
   bundle.cell = 0.00225;
   const std::string readme = BundleReadme(bundle, BundleTarget::kMujoco);
-  EXPECT_NE(readme.find("they cover 1.25 % of the volume too much and miss 0.25 %; Hausdorff distance 1.50 "
-                        "mm, deepest dent covered 1.25 mm (a cell of a 32^3 grid is 2.25 mm)"),
+  EXPECT_NE(readme.find(
+                "they cover 1.25 % of the volume too much and miss 0.25 %; Hausdorff distance 1.50 "
+                "mm, deepest dent covered 1.25 mm (a cell of a 32^3 grid is 2.25 mm)"),
             std::string::npos)
       << readme;
   EXPECT_NE(readme.find("--mjcf=self_check.xml"), std::string::npos);
@@ -121,9 +122,10 @@ TEST(XmlWriter, ClosesElementsInTheirOrder) {
   xml.Text("c", "d & e");
   xml.Close();
   xml.Close();
-  EXPECT_EQ(xml.Take(),
-            "<?xml version=\"1.0\"?>\n<!-- one -->\n<a x=\"1 &lt; 2\">\n  <b>\n    <c>d &amp; e</c>\n  "
-            "</b>\n</a>\n");
+  EXPECT_EQ(
+      xml.Take(),
+      "<?xml version=\"1.0\"?>\n<!-- one -->\n<a x=\"1 &lt; 2\">\n  <b>\n    <c>d &amp; e</c>\n  "
+      "</b>\n</a>\n");
 }
 
 }  // namespace

@@ -43,8 +43,9 @@ TEST_F(BundleFolder, HoldsAFolderAnObjectAndATable) {
   Write({"l.obj"});
   std::vector<std::string> paths;
   for (const auto& [path, bytes] : shapes::FileContents(request_.out)) paths.push_back(path);
-  EXPECT_EQ(paths, (std::vector<std::string>{"bundle.csv", "l/README.md", "l/l.stl", "l/l.urdf", "l/l.xml",
-                                             "l/l_part_00.stl", "l/l_part_01.stl", "l/self_check.xml"}));
+  EXPECT_EQ(paths,
+            (std::vector<std::string>{"bundle.csv", "l/README.md", "l/l.stl", "l/l.urdf", "l/l.xml",
+                                      "l/l_part_00.stl", "l/l_part_01.stl", "l/self_check.xml"}));
   const auto rows = shapes::CsvRows(folder_ / "out/bundle.csv");
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].at("status"), "ok");

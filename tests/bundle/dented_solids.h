@@ -20,9 +20,9 @@ inline TriangleMesh LShape() {
 // 60 x 60 x 20 mm with a slot 20 mm wide and 40 mm deep from the top, open at both faces: 56 cm3,
 // hull 72 cm3.
 inline TriangleMesh UShape() {
-  return Away(Extruded({{0, 0}, {.06, 0}, {.06, .06}, {.04, .06}, {.04, .02}, {.02, .02}, {.02, .06}, {0, .06}},
-                       {{{0, 1, 4}}, {{1, 2, 3}}, {{1, 3, 4}}, {{0, 4, 5}}, {{0, 5, 6}}, {{0, 6, 7}}},
-                       0.02));
+  return Away(Extruded(
+      {{0, 0}, {.06, 0}, {.06, .06}, {.04, .06}, {.04, .02}, {.02, .02}, {.02, .06}, {0, .06}},
+      {{{0, 1, 4}}, {{1, 2, 3}}, {{1, 3, 4}}, {{0, 4, 5}}, {{0, 5, 6}}, {{0, 6, 7}}}, 0.02));
 }
 
 }  // namespace antigrasp::shapes

@@ -89,7 +89,8 @@ TEST(MujocoReads, MassCentreAndInertiaAsTheyAreWritten) {
   const mjtNum* q = simulation.model->body_iquat + 4;
   const Eigen::Matrix3d axes = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
   const Vector3d moments(simulation.model->body_inertia + 3);
-  EXPECT_TRUE((axes * moments.asDiagonal() * axes.transpose()).isApprox(written.bundle.inertia, 1e-6));
+  EXPECT_TRUE(
+      (axes * moments.asDiagonal() * axes.transpose()).isApprox(written.bundle.inertia, 1e-6));
 }
 
 TEST(MujocoReads, ANameWithEveryCharacterThatXmlEscapes) {
@@ -113,7 +114,8 @@ TEST(MujocoReads, ASlotThatABallFallsInto) {
   still.erase(still.find("<freejoint/>"), 12);
   std::ofstream(written.model) << still;
   std::ofstream(written.scene)
-      << "<mujoco><include file=\"solid.xml\"/><option gravity=\"0 -9.81 0\"/><worldbody><body name=\"ball\" "
+      << "<mujoco><include file=\"solid.xml\"/><option gravity=\"0 -9.81 0\"/><worldbody><body "
+         "name=\"ball\" "
          "pos=\"0.04 0.05 0.03\"><freejoint/><geom type=\"sphere\" size=\"0.004\" "
          "mass=\"0.001\"/></body></worldbody></mujoco>";
   Simulation simulation(written.scene);

@@ -24,7 +24,8 @@ TEST(PartErrors, AreNoneForTheSolidItself) {
 }
 
 TEST(PartErrors, CountOverlapsOnce) {
-  const auto low = PartOf(BoxAt({2, 3, 3}, {5, 0, -0.5})), high = PartOf(BoxAt({2, 3, 3}, {5, 0, 0.5}));
+  const auto low = PartOf(BoxAt({2, 3, 3}, {5, 0, -0.5})),
+             high = PartOf(BoxAt({2, 3, 3}, {5, 0, 0.5}));
   const PartErrors errors = MeasureParts(Solid(), {low, high}, 0.4);
   EXPECT_NEAR(errors.covered, 0.0, 1e-12);
   EXPECT_NEAR(errors.missing, 0.0, 1e-12);
@@ -40,8 +41,8 @@ TEST(PartErrors, TellWhatIsMissingFromWhatIsTooMuch) {
   EXPECT_NEAR(errors.covered, 0.25, 0.01);
 }
 
-// The hull of the U fills the slot, 20 mm wide and deep: in its middle the walls are 10 mm away, and
-// the middle of its bottom lies 10 mm below either face.
+// The hull of the U fills the slot, 20 mm wide and deep: in its middle the walls are 10 mm away,
+// and the middle of its bottom lies 10 mm below either face.
 TEST(PartErrors, OfTheHullOfAUAreThoseOfItsSlot) {
   const TriangleMesh u = shapes::UShape();
   const PartErrors errors = MeasureParts(u, {PartOf(u)}, 0.06 / 28);
