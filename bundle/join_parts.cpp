@@ -40,13 +40,16 @@ class Joiner {
     JoinAll();
   }
 
-  // Hulls of all pairs. From the second time on of those, too, that are between air.
+  // Pairs that are between air are hulls, too, from now on.
+  void JoinThroughAir() {
+    air_ = kNever;
+    JoinAll();
+  }
   void JoinAll() {
     joints_.assign(parts_.size(), {});
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) joints_[i].push_back(Join(i, j));
     }
-    air_ = kNever;
   }
 
   std::size_t size() const { return parts_.size(); }
@@ -139,7 +142,7 @@ std::vector<ConvexPart> JoinParts(std::vector<ConvexPart> parts, const SurfacePo
     const auto best = joiner.Best();
     if (joiner.Depth(best) > dent && joiner.size() <= static_cast<std::size_t>(most)) break;
     if (joiner.Depth(best) == kNever) {
-      joiner.JoinAll();
+      joiner.JoinThroughAir();
     } else {
       joiner.JoinPair(best);
     }
