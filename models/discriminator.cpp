@@ -4,6 +4,7 @@
 
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/libtorch.h"
+#include "antigrasp/models/sdf_values.h"
 
 namespace antigrasp {
 namespace {
@@ -12,6 +13,12 @@ constexpr double kWeightSd = 0.02;
 constexpr double kLeak = 0.2;
 
 torch::Tensor LeakyRelu(torch::Tensor x) { return torch::leaky_relu_(x, kLeak); }
+
+torch::Tensor UpToDepth(const torch::Tensor& grids, const ModelOptions& options) {
+  if (options.depth == 0.0) return grids;
+  const torch::Tensor deepest = torch::tensor(options.depth, torch::kDouble);
+  return grids.clamp_max(NetworkValues(deepest, options).item<double>());
+}
 
 // [pack N, C, s, s, s] -> [pack N, 2 C, s, s, s]: every shape's features, then their deviation over
 // its pack.
@@ -85,7 +92,7 @@ torch::Tensor DiscriminatorImpl::forward(const torch::Tensor& sdf) {
 
 torch::Tensor DiscriminatorImpl::ForwardFolded(const torch::Tensor& grids) {
   const at::ScalarType compute = ConvolutionType(options_);
-  const torch::Tensor folded = EmphasizeEdges(grids, options_.edge_gain);
+  const torch::Tensor folded = EmphasizeEdges(UpToDepth(grids, options_), options_.edge_gain);
   const std::int64_t inputs = PacksFeatures() ? 1 : options_.pack;
   const std::int64_t h = folded.size(2);
   const auto packed = folded.view({-1, inputs, 8, h, h, h})

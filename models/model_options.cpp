@@ -31,6 +31,8 @@ void Bind(OptionTable* table, ModelOptions* options) {
              "smooth the generator's output with [1 2 1]/4 along each axis, before tanh");
   table->Add("model.edge_gain", &options->edge_gain, 0, 100,
              "the discriminator sees x - edge_gain * Laplacian(x), so that bumps stand out; 0 = x");
+  table->Add("model.depth", &options->depth, 0, 1,
+             "the discriminator sees distances inside as at most this, unit cube; 0 = as they are");
   table->Add("model.squash", &options->squash, "how distances beyond the truncation are cut off");
   table->Add("model.truncation", &options->truncation, 0, 1,
              "distance that a network value of 1 stands for, unit cube; 0 = raw distances");

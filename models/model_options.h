@@ -61,6 +61,9 @@ struct ModelOptions {
   // The discriminator sees x - edge_gain * Laplacian(x), by nodes: creases and bumps stand out that
   // its bounded slope would overlook (folding.h). 0 = x itself, as in the paper.
   double edge_gain = 0.0;
+  // How far into shapes the discriminator sees: it is shown every distance inside as at most this,
+  // unit cube. Deeper, distances of a union are not those of a mesh (solid_field.h). 0 = all.
+  double depth = 0.0;
   // kClamp: v = clamp(d / truncation, -1, 1); kTanh: v = tanh(d / truncation), no kink.
   Squash squash = Squash::kClamp;
   // A network value v stands for the distance truncation * v, clamped; 0 = raw distances times

@@ -10,21 +10,13 @@
 #include "antigrasp/models/random_tensor.h"
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/models/solid_field.h"
+#include "antigrasp/models/solid_reach.h"
 
 namespace antigrasp {
 namespace {
 
 // What the last layer says of a part; numbers of about 1, any are allowed.
-enum Raw {
-  kPlace = 0,
-  kSize = 3,
-  kAxis = 6,
-  kSide = 9,
-  kGrip = 12,
-  kRound = 15,
-  kLean = 16,
-  kEnds = 18
-};
+enum Raw { kJoint = 0, kSize = 3, kAxis = 6, kGrip = 12, kRound = 15, kLean = 16, kEnds = 18 };
 constexpr std::int64_t kRaws = 19;
 
 constexpr int kUnitsPerWidth = 32;
@@ -32,17 +24,16 @@ constexpr double kLastGain = 0.7, kLastBias = 0.5;  // deviations of what the la
 
 // In units of the cube's side. A part is never thinner than two cells of 32^3: one that is comes
 // and goes with where the nodes lie, and its rim is saw teeth.
-constexpr double kPlaceScale = 0.25, kSizeScale = 0.18, kLeastHalf = 0.03;
-// Of half the side, 0.5: what parts may reach, so that no shape touches the border, and what one
-// may fill so that it still has somewhere to go.
-constexpr double kRoom = 0.46, kFullest = 0.455;
-constexpr double kSteepest = 0.9;  // of the lean that thins an end down to that
+constexpr double kSizeScale = 0.12, kLeastHalf = 0.03;
+constexpr double kLargestSize = 1.3;  // logarithm
+constexpr double kFreeCells = 2.0;    // on each side of every set's largest shapes
+constexpr double kSteepest = 0.9;     // of the lean that thins an end down to that
 // Parts begin as boxes, nearly: a form that were drawn at random would be learnt last, and grafts
 // of prisms would stay cones. Leans and the two sides of a section that are nearly nothing and
 // nearly equal are so exactly.
 constexpr double kFormGain = 0.25;  // of what the last layer begins with
 constexpr double kRoundBias = -1.2, kEndsBias = -1.4;
-constexpr double kUpright = 0.25, kEqualSides = 0.1;
+constexpr double kStraight = 1.0, kUpright = 0.25, kEqualSides = 0.1;
 
 torch::Tensor Unit(const torch::Tensor& x) {
   return torch::nn::functional::normalize(x, torch::nn::functional::NormalizeFuncOptions().dim(-1));
@@ -53,37 +44,25 @@ torch::Tensor Share(const torch::Tensor& x) {
   return (1.2 * torch::sigmoid(1.5 * x) - 0.1).clamp(0.0, 1.0);
 }
 
-// Two of the frame's axes by Gram and Schmidt, near those of the cube: [N, M, 3, 3], rows.
-torch::Tensor Axes(const torch::Tensor& first, const torch::Tensor& second) {
-  const torch::Tensor cube = torch::eye(3, first.options());
-  const torch::Tensor u = Unit(first + cube[0]), side = second + cube[1];
+// Two of the frame's axes by Gram and Schmidt, near those of the cube: [N, M, 3, 3], rows. Slight
+// turns are none: a network that trains, and still more the average of its weights, would tilt
+// every part that should be upright a little.
+torch::Tensor Axes(const torch::Tensor& turn) {
+  const torch::Tensor size = turn.norm(2, -1, true);
+  const torch::Tensor rest = turn * (1.0 - kStraight / size.clamp_min(kStraight));
+  const torch::Tensor cube = torch::eye(3, turn.options());
+  const torch::Tensor u = Unit(rest.narrow(2, 0, 3) + cube[0]);
+  const torch::Tensor side = rest.narrow(2, 3, 3) + cube[1];
   const torch::Tensor v = Unit(side - (u * side).sum(-1, true) * u);
   return torch::stack({u, v, torch::cross(u, v, -1)}, 2);
 }
 
 // By how much half sizes along u, v and w exceed the least; about equal sides are equal.
 torch::Tensor Sizes(const torch::Tensor& raw) {
-  const torch::Tensor size = 0.5 * raw.clamp(-4.0, 3.0);  // logarithms
+  const torch::Tensor size = kLargestSize * torch::tanh(raw * (0.5 / kLargestSize));  // logarithms
   const torch::Tensor u = size.narrow(2, 0, 1);
   const torch::Tensor v = u + torch::softshrink(size.narrow(2, 1, 1), kEqualSides);
   return kSizeScale * torch::cat({u, v, size.narrow(2, 2, 1)}, 2).exp();
-}
-
-// How far parts reach from their centres along the cube's axes: [N, M, 3]. `lean`: share of the
-// half size by which a section grows to the wider end.
-torch::Tensor Reach(const torch::Tensor& half, const torch::Tensor& axes,
-                    const torch::Tensor& lean) {
-  const torch::Tensor widest =
-      torch::cat({half.narrow(2, 0, 2) * (1.0 + lean.abs()), half.narrow(2, 2, 1)}, 2);
-  return (axes.abs() * widest.unsqueeze(-1)).sum(2);
-}
-
-// Half sizes that exceed the least by `sizes`, or by as much of them as the cube has room for.
-torch::Tensor Fitting(const torch::Tensor& sizes, const torch::Tensor& axes,
-                      const torch::Tensor& lean) {
-  const torch::Tensor least = torch::full_like(sizes, kLeastHalf);
-  const torch::Tensor fit = (kFullest - Reach(least, axes, lean)) / Reach(sizes, axes, lean);
-  return least + sizes * fit.amin(-1, true).clamp_max(1.0);
 }
 
 // A point inside each part, [N, M, 3] from its centre along the cube's axes: `share` [N, M, 3] of
@@ -96,18 +75,55 @@ torch::Tensor PointInside(const torch::Tensor& share, const torch::Tensor& half,
   return torch::matmul(axes.transpose(2, 3), point.unsqueeze(-1)).squeeze(-1);
 }
 
-// Where parts lie, [N, M, 3]: the first at its place, each of the others so that a point inside it
-// meets a point inside the one before, as far as the cube has room. A chain: body, shoulder, neck
-// and cap, or a graft, what it is on and another graft.
-torch::Tensor Chained(const torch::Tensor& first, const torch::Tensor& joint,
-                      const torch::Tensor& grip, const torch::Tensor& room) {
-  std::vector<torch::Tensor> places = {first};
+// Where parts lie, [N, M, 3]: the first anywhere, each of the others so that a point inside it
+// meets a point inside the one before. A chain: body, shoulder, neck and cap, or a graft, what it
+// is on and another graft.
+torch::Tensor Chained(const torch::Tensor& joint, const torch::Tensor& grip) {
+  std::vector<torch::Tensor> places = {torch::zeros_like(joint.select(1, 0))};
   for (std::int64_t k = 1; k < joint.size(1); ++k) {
-    const torch::Tensor most = room.select(1, k);
-    const torch::Tensor place = places.back() + joint.select(1, k - 1) - grip.select(1, k);
-    places.push_back(torch::minimum(torch::maximum(place, -most), most));
+    places.push_back(places.back() + joint.select(1, k - 1) - grip.select(1, k));
   }
   return torch::stack(places, 1);
+}
+
+// A union as it is drawn: columns of solid_field.h, `lean` and `ends` as shares of the most.
+struct Draft {
+  torch::Tensor axes, half, round, lean, ends, place;
+
+  torch::Tensor Slope() const {
+    return lean * (half.narrow(2, 0, 2) - kLeastHalf) / half.narrow(2, 2, 1);
+  }
+  torch::Tensor Fillet() const { return 0.5 * half.amin(-1, true) * ends; }
+  SolidReach Reach() const { return ReachOf({axes, half, round, Slope(), Fillet()}); }
+};
+
+Draft Drawn(const torch::Tensor& x) {  // [N, M, kRaws]
+  const auto raw = [&](int first, int count) { return x.narrow(2, first, count); };
+  Draft draft;
+  draft.axes = Axes(raw(kAxis, 6));
+  draft.half = kLeastHalf + Sizes(raw(kSize, 3));
+  draft.round = Share(raw(kRound, 1) + kRoundBias);
+  draft.lean = kSteepest * torch::tanh(torch::softshrink(raw(kLean, 2), kUpright));
+  draft.ends = Share(raw(kEnds, 1) + kEndsBias);
+  const auto inside = [&](const torch::Tensor& share) {
+    return PointInside(torch::tanh(share), draft.half, draft.Slope(), draft.axes);
+  };
+  draft.place = Chained(inside(raw(kJoint, 3).roll(-1, 1)), inside(raw(kGrip, 3)));
+  return draft;
+}
+
+// Moves the middle of the bounding box to that of the cube, where it is in every set, and scales
+// what would reach farther than `room` as a whole. A network would learn neither exactly, and sets
+// of shapes that lie a cell off are told from theirs at a glance.
+void PutIntoTheMiddle(double room, Draft* draft) {
+  SolidReach reach = draft->Reach();
+  const torch::Tensor top = (draft->place + reach.up).amax(1, true);
+  const torch::Tensor bottom = (draft->place - reach.down).amin(1, true);
+  const torch::Tensor scale = (2.0 * room / (top - bottom).amax(2, true)).clamp_max(1.0);
+  draft->place = scale * (draft->place - 0.5 * (top + bottom));
+  draft->half = (scale * draft->half).clamp_min(kLeastHalf);
+  reach = draft->Reach();  // what must not get thinner may still reach too far
+  draft->place = torch::minimum(torch::maximum(draft->place, reach.down - room), room - reach.up);
 }
 
 }  // namespace
@@ -146,22 +162,14 @@ torch::Tensor SolidGeneratorImpl::Parts(const torch::Tensor& z) {
     x = layer.get() == layers_.front().get() ? layer(x) : layer(torch::relu(x));
   }
   x = x.view({z.size(0), options_.parts, kRaws});
-  const auto raw = [&](int first, int count) { return x.narrow(2, first, count); };
-  const torch::Tensor axes = Axes(raw(kAxis, 3), raw(kSide, 3));
-  const torch::Tensor lean = kSteepest * torch::tanh(torch::softshrink(raw(kLean, 2), kUpright));
-  const torch::Tensor half = Fitting(Sizes(raw(kSize, 3)), axes, lean);
-  const torch::Tensor slope = lean * (half.narrow(2, 0, 2) - kLeastHalf) / half.narrow(2, 2, 1);
-  const torch::Tensor room = kRoom - Reach(half, axes, lean);
-  const torch::Tensor raw_place = raw(kPlace, 3), first_room = room.select(1, 0);
-  const torch::Tensor place =
-      Chained(first_room * torch::tanh(kPlaceScale * raw_place.select(1, 0) / first_room),
-              PointInside(torch::tanh(raw_place.roll(-1, 1)), half, slope, axes),
-              PointInside(torch::tanh(raw(kGrip, 3)), half, slope, axes), room);
-  return torch::cat({axes.flatten(2), torch::matmul(axes, place.unsqueeze(-1)).squeeze(-1), half,
-                     Share(raw(kRound, 1) + kRoundBias), slope,
-                     0.5 * half.amin(-1, true) * Share(raw(kEnds, 1) + kEndsBias),
-                     torch::rsqrt(1.0 + slope.square().mean(-1, true))},
-                    2);
+  Draft draft = Drawn(x);
+  PutIntoTheMiddle(0.5 - kFreeCells / options_.resolution, &draft);
+  const torch::Tensor slope = draft.Slope();
+  return torch::cat(
+      {draft.axes.flatten(2), torch::matmul(draft.axes, draft.place.unsqueeze(-1)).squeeze(-1),
+       draft.half, draft.round, slope, draft.Fillet(),
+       torch::rsqrt(1.0 + slope.square().mean(-1, true))},
+      2);
 }
 
 torch::Tensor SolidGeneratorImpl::forward(const torch::Tensor& z) {

@@ -8,6 +8,8 @@ void Bind(OptionTable* table, GanOptions* options) {
              "discriminator updates for each generator update");
   table->Add("gan.learning_rate_g", &options->learning_rate_g, 0, 1, "Adam's rate, generator");
   table->Add("gan.learning_rate_d", &options->learning_rate_d, 0, 1, "Adam's rate, discriminator");
+  table->Add("gan.rest_below", &options->rest_below, 0, 2,
+             "the discriminator is not updated while its loss is below this; 0 = always updated");
   table->Add("gan.later_rate", &options->later_rate, 0, 1,
              "learning rates after episode 0, relative to those of episode 0");
   table->Add("gan.beta1", &options->beta1, 0, 0.999999, "Adam's decay of the first moment");

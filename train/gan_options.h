@@ -29,6 +29,9 @@ struct GanOptions {
   int discriminator_steps = 1;
   double learning_rate_g = 4e-4;
   double learning_rate_d = 4e-4;
+  // The discriminator is not updated where its loss is below this: one that is sure of everything
+  // has little to teach (3D-GAN, Wu et al., NeurIPS 2016). 0 = always updated; 2 is chance.
+  double rest_below = 0.0;
   double later_rate = 1.0;  // learning rates after episode 0, relative to these
   double beta1 = 0.0;
   double beta2 = 0.9;

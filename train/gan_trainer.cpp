@@ -120,6 +120,7 @@ void GanTrainer::Impl::UpdateDiscriminator(const torch::Tensor& real, const torc
   const auto gradients = torch::autograd::grad({loss}, adam_discriminator.parameters());
   std::tie(report->loss_discriminator, report->gradient_discriminator) =
       FiniteLossAndNorm(loss, gradients);
+  if (report->loss_discriminator < options.rest_below) return;
   report->rate_discriminator = options.learning_rate_d * LearningRateFactor();
   adam_discriminator.Step(gradients, report->rate_discriminator);
 }

@@ -16,9 +16,9 @@ namespace antigrasp {
 
 // What one step was like. Gradient: 2-norm over all parameters of the network.
 struct StepReport {
-  double loss_discriminator = 0.0;  // L_D^data + L_D^gen (hinge, V-A)
-  double loss_generator = 0.0;      // L_G
-  double gradient_discriminator = 0.0;
+  double loss_discriminator = 0.0;      // L_D^data + L_D^gen (hinge, V-A)
+  double loss_generator = 0.0;          // L_G
+  double gradient_discriminator = 0.0;  // also where it rests: gan.rest_below
   double gradient_generator = 0.0;
   double rate_discriminator = 0.0;  // Adam's learning rates
   double rate_generator = 0.0;

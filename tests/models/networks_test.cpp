@@ -2,6 +2,8 @@
 #include <torch/autograd.h>
 #include <torch/types.h>
 
+#include <cmath>
+
 #include "antigrasp/core/error.h"
 #include "antigrasp/models/discriminator.h"
 #include "antigrasp/models/folding.h"
@@ -269,6 +271,22 @@ TEST(Discriminator, WithAnEdgeGainSeesTheSharpenedGrid) {
   const torch::Tensor sharpened = Unfold(EmphasizeEdges(Fold(grid), 2.0));
   EXPECT_TRUE(torch::allclose(sharpening(grid), plain(sharpened)));
   EXPECT_FALSE(torch::allclose(sharpening(grid), plain(grid), 1e-3, 1e-3));
+}
+
+TEST(Discriminator, SeesIntoShapesAsFarAsItsDepth) {
+  ModelOptions model = TinyModel();
+  Discriminator plain(model);
+  model.depth = 0.03;
+  Discriminator shallow(model);  // the same weights
+  plain->eval();
+  shallow->eval();
+  const torch::Tensor grid = Latent(4, 32 * 32 * 32).view({4, 1, 32, 32, 32});
+  // 0.03 by a truncation of 0.1: a value of 0.3, or tanh(0.3).
+  EXPECT_TRUE(torch::equal(shallow(grid), plain(grid.clamp_max(0.3))));
+  EXPECT_FALSE(torch::allclose(shallow(grid), plain(grid), 1e-3, 1e-3));
+  model.squash = Squash::kTanh;
+  EXPECT_TRUE(torch::allclose(Discriminator(model)(grid),
+                              Discriminator(TinyModel())(grid.clamp_max(std::tanh(0.3)))));
 }
 
 TEST(Networks, InBfloat16DifferFromFloatByItsRounding) {

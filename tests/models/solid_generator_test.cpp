@@ -92,27 +92,72 @@ TEST(SolidGenerator, EveryPartMeetsTheOneBefore) {
                                                 SolidField(parts.narrow(1, k, 1), 32));
       apart += (both.flatten(1).amax(1) <= -0.028).sum().item<int>();
     }
-    // The border pushes a few off.
-    EXPECT_LE(apart, sd == 1.0 ? 2 : 12) << "of 192";
+    EXPECT_EQ(apart, 0) << "of 192";
   }
+}
+
+// The last layer alone speaks: its biases [parts, 19], all 0.
+torch::Tensor Biases(SolidGenerator* generator) {
+  torch::NoGradGuard no_grad;
+  for (torch::Tensor& parameter : (*generator)->parameters()) parameter.zero_();
+  return (*generator)->named_parameters()["layer4.bias"].view({3, 19});
 }
 
 TEST(SolidGenerator, NeedlesHangEndToEndWhereTheirJointsAreAtTheirEnds) {
   SolidGenerator generator(Solids());
   torch::NoGradGuard no_grad;
-  for (torch::Tensor& parameter : generator->parameters()) parameter.zero_();
-  auto bias = generator->named_parameters()["layer4.bias"].view({3, 19});
+  torch::Tensor bias = Biases(&generator);
   bias.select(1, 3).fill_(-4.0);                    // thin along u and v
-  bias.select(1, 5).fill_(-2.0);                    // long along w
   bias.select(1, 2).narrow(0, 1, 2).fill_(50.0);    // on the upper end of the one before,
   bias.select(1, 14).narrow(0, 1, 2).fill_(-50.0);  // by the lower end
   const torch::Tensor parts = generator->Parts(Noise(1, 1.0))[0];
   const double half = parts[0][kPartHalf + 2].item<double>();
-  EXPECT_NEAR(half, 0.03 + 0.18 * std::exp(-1.0), 1e-6);
-  for (int k = 0; k < 3; ++k) {
-    EXPECT_NEAR(parts[k][kPartCentre + 2].item<double>(), 2.0 * 0.9 * half * k, 1e-6) << k;
+  EXPECT_NEAR(half, 0.15, 1e-6);
+  for (int k = 0; k < 3; ++k) {  // the middle one in the cube's middle
+    EXPECT_NEAR(parts[k][kPartCentre + 2].item<double>(), 2.0 * 0.9 * half * (k - 1), 1e-6) << k;
     EXPECT_NEAR(parts[k][kPartCentre].item<double>(), 0.0, 1e-6) << k;
   }
+}
+
+TEST(SolidGenerator, TheBoundingBoxIsInTheMiddleOfTheCube) {
+  SolidGenerator generator(Solids());
+  const torch::Tensor inside = generator(Noise(64, 1.0)) > 0;
+  for (int i = 0; i < 64; ++i) {
+    const torch::Tensor nodes = inside[i][0].nonzero();  // [n, 3]
+    const torch::Tensor ends =
+        std::get<0>(nodes.min(0)) + std::get<0>(nodes.max(0)) - 31;  // 0 where a middle is
+    // Each side ends within a node's distance of the last node inside.
+    EXPECT_LE(ends.abs().max().item<int>(), 1) << i;
+  }
+}
+
+TEST(SolidGenerator, WhatIsTooLargeIsScaledAsAWhole) {
+  SolidGenerator generator(Solids());
+  torch::NoGradGuard no_grad;
+  torch::Tensor bias = Biases(&generator);
+  bias.select(1, 5).fill_(2.0);                   // long along w
+  bias.select(1, 2).narrow(0, 1, 2).fill_(50.0);  // end to end, as the needles
+  bias.select(1, 14).narrow(0, 1, 2).fill_(-50.0);
+  const torch::Tensor parts = generator->Parts(Noise(1, 1.0))[0];
+  // Half w before, others 0.15; 2 (1 + 2 * 0.9) half w long in all.
+  const double before = 0.03 + 0.12 * std::exp(1.3 * std::tanh(1.0 / 1.3)), after = 0.4375 / 2.8;
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(parts[k][kPartHalf + 2].item<double>(), after, 1e-6);
+    EXPECT_NEAR(parts[k][kPartHalf].item<double>(), 0.15 * after / before, 1e-6);
+    EXPECT_NEAR(parts[k][kPartCentre + 2].item<double>(), 1.8 * after * (k - 1), 1e-6);
+  }
+}
+
+TEST(SolidGenerator, SlightTurnsAreNone) {
+  SolidGenerator generator(Solids());
+  torch::NoGradGuard no_grad;
+  torch::Tensor bias = Biases(&generator);
+  bias[0].narrow(0, 6, 6).copy_(torch::tensor({0.0, 0.5, -0.5, 0.4, 0.0, 0.5}));  // 0.954 in all
+  bias[1].narrow(0, 6, 6).copy_(torch::tensor({0.0, 2.0, 0.0, 0.0, 0.0, 0.0}));
+  const torch::Tensor axes =
+      generator->Parts(Noise(1, 1.0))[0].narrow(1, kPartAxes, 9).view({3, 3, 3});
+  EXPECT_TRUE(torch::equal(axes[0], torch::eye(3)));
+  EXPECT_NEAR(axes[1][0][1].item<double>(), std::sqrt(0.5), 1e-6);  // u: (1, 2 - 1, 0), of length 1
 }
 
 TEST(SolidGenerator, InEvaluationWhatDoesNotHangTogetherIsLeftOut) {
@@ -127,8 +172,7 @@ TEST(SolidGenerator, InEvaluationWhatDoesNotHangTogetherIsLeftOut) {
 TEST(SolidGenerator, SlightLeansAreUprightAndSlightlyUnequalSidesEqual) {
   SolidGenerator generator(Solids());
   torch::NoGradGuard no_grad;
-  for (torch::Tensor& parameter : generator->parameters()) parameter.zero_();
-  auto bias = generator->named_parameters()["layer4.bias"].view({3, 19});
+  torch::Tensor bias = Biases(&generator);
   bias.select(1, 4).fill_(0.19);   // sides
   bias.select(1, 16).fill_(0.24);  // lean along u
   bias.select(1, 17).fill_(-0.4);  // lean along v, the other way

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <utility>
 
 #include "antigrasp/models/folding.h"
@@ -61,6 +62,27 @@ TEST(GanStep, UpdatesTheDiscriminatorAsOftenAsAskedAndThenAsksItAgain) {
   EXPECT_NEAR(state.at("discriminator/bias5").item<double>(), 1.25, 1e-6);
   EXPECT_EQ(state.at("adam_discriminator/steps").item<std::int64_t>(), 3);
   EXPECT_EQ(state.at("adam_generator/steps").item<std::int64_t>(), 1);
+}
+
+TEST(GanStep, TheDiscriminatorRestsWhereItsLossIsBelowWhatWasAsked) {
+  GanOptions options = StillOptions();
+  options.learning_rate_d = 0.25;
+  options.rest_below = 1.25;
+  GanTrainer trainer(PlainModel(), options, 5, torch::kCPU);
+  trainer.BeginEpisode(0, 10, true);
+  for (const auto& [generated, loss, moves] :
+       {std::tuple{0.0, 1.0, false}, {0.25, 1.25, true}, {0.5, 1.5, true}}) {
+    SetNetworks(2.0, generated, kEmpty, &trainer);
+    const std::int64_t before =
+        StateOf(trainer).at("adam_discriminator/steps").item<std::int64_t>();
+    const StepReport report = trainer.Step(Solids());
+    const Tensors state = StateOf(trainer);
+    EXPECT_NEAR(report.loss_discriminator, loss, 1e-6);
+    EXPECT_EQ(report.rate_discriminator, moves ? 0.25 : 0.0) << loss;
+    EXPECT_NEAR(state.at("discriminator/bias5").item<double>(), generated - (moves ? 0.25 : 0.0),
+                1e-6);
+    EXPECT_EQ(state.at("adam_discriminator/steps").item<std::int64_t>(), before + (moves ? 1 : 0));
+  }
 }
 
 TEST(GanStep, MovesTheGeneratorTowardsHigherScores) {
