@@ -24,6 +24,7 @@ struct SampleFlags {
   std::string out;
   std::string device = "cpu";
   int threads = 0;
+  double fairing = -1.0, fairing_power = -1.0;  // below 0: the networks' own
 };
 
 void Sample(const SampleFlags& flags) {
@@ -35,6 +36,8 @@ void Sample(const SampleFlags& flags) {
   RunConfig config = NetworksFromToml(checkpoint.config, path.string());
   config.device = flags.device;
   config.threads = flags.threads;
+  if (flags.fairing >= 0.0) config.gan.fairing = flags.fairing;
+  if (flags.fairing_power > 0.0) config.gan.fairing_power = flags.fairing_power;
   const std::unique_ptr<ShapeModel> model = MakeGan(config);
   model->LoadNetworks(checkpoint.networks, path.string());
 
@@ -59,6 +62,14 @@ void AddSampleCommand(CLI::App* app) {
       ->capture_default_str();
   command->add_option("--seed", flags->seed, "seed of the latent vectors")->capture_default_str();
   command->add_option("--out", flags->out, "SDF file to write (HDF5)")->required();
+  command
+      ->add_option("--fairing", flags->fairing,
+                   "few bends in place of many, flat faces and creases: how much, e.g. 0.5 (2 for "
+                   "boxes); 0 = as drawn; default: the networks' own gan.fairing")
+      ->check(CLI::Range(0.0, 1000.0));
+  command
+      ->add_option("--fairing-power", flags->fairing_power, "of a bend in that: gan.fairing_power")
+      ->check(CLI::Range(0.01, 1.0));
   command->add_option("--device", flags->device, "cpu, cuda, cuda:1")->capture_default_str();
   AddThreads(command, &flags->threads);
   command->callback([flags] { Sample(*flags); });

@@ -20,6 +20,11 @@ void Bind(OptionTable* table, GanOptions* options) {
              "show each real shape under a random symmetry of the cube");
   table->Add("gan.augment", &options->augment,
              "show the discriminator every shape, real or generated, shifted or mirrored");
+  table->Add(
+      "gan.fairing", &options->fairing, 0, 1000,
+      "samples get few bends in place of many, flat faces and creases: how much; 0 = as drawn");
+  table->Add("gan.fairing_power", &options->fairing_power, 0.01, 1,
+             "of a bend in that: 1 rounds creases off, small ones make few");
   table->Add("gan.ema", &options->ema, 0, 0.999999,
              "decay per step of the averaged generator; 0 = 1 - 4 / iterations, in [0.9, 0.999]");
 }

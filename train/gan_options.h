@@ -41,6 +41,9 @@ struct GanOptions {
   // generated, so that it cannot learn the set by heart (DiffAugment, Zhao et al., NeurIPS 2020).
   Augmentation augment = Augmentation::kNone;
   Symmetries symmetries = Symmetries::kNone;
+  // Samples are drawn with few bends (models/few_bends.h): weight and power; weight 0 = as drawn.
+  double fairing = 0.0;
+  double fairing_power = 0.3;
   double ema = 0.0;  // decay of the averaged generator; 0 = 1 - 4 / iterations, in [0.9, 0.999]
 };
 

@@ -11,8 +11,10 @@
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/rng.h"
+#include "antigrasp/models/few_bends.h"
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/random_tensor.h"
+#include "antigrasp/models/sdf_values.h"
 #include "antigrasp/train/adam.h"
 #include "antigrasp/train/augment.h"
 #include "antigrasp/train/averaged_generator.h"
@@ -279,7 +281,12 @@ torch::Tensor GanTrainer::Latents(std::uint64_t seed, std::int64_t first,
 }
 
 torch::Tensor GanTrainer::Sample(std::uint64_t seed, std::int64_t first, std::int64_t count) {
-  return impl_->average.Sample(impl_->latent, seed, first, count);
+  const torch::Tensor drawn = impl_->average.Sample(impl_->latent, seed, first, count);
+  if (!(impl_->options.fairing > 0.0)) return drawn;
+  const double cells = impl_->model.resolution;  // along the cube's side
+  const FewBends fairing{.weight = impl_->options.fairing, .power = impl_->options.fairing_power};
+  const torch::Tensor distances = Distances(drawn.cpu().to(torch::kFloat), impl_->model) * cells;
+  return NetworkValues(WithFewBends(distances, fairing) / cells, impl_->model);
 }
 
 const LatentMixture& GanTrainer::latent() const { return impl_->latent; }

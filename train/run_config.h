@@ -48,8 +48,8 @@ struct CemOptions {
   int samples = 2500;            // objects drawn from the generator per episode
   int keep = 500;                // elites: the least graspable of them
   EliteRule variant = EliteRule::kPaper;
-  int cells = 100;     // of the stratified variant
-  int neighbours = 3;  // of the diverse variant
+  int cells = 100;      // of the stratified variant
+  int neighbours = 20;  // of the diverse variant
   // A sample that is farther from its nearest prior shape than this percentage of prior shapes are
   // from theirs is not kept. 0 = any distance will do.
   double spread = 0.0;

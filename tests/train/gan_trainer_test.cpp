@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/models/few_bends.h"
+#include "antigrasp/models/sdf_values.h"
 
 namespace antigrasp {
 namespace {
@@ -142,6 +144,29 @@ TEST(GanTrainer, SampleDoesNotDependOnHowManyAreAskedFor) {
     EXPECT_TRUE(torch::equal(trainer.Sample(3, 20, 40), all.slice(0, 20, 60)));
     EXPECT_EQ(trainer.Sample(3, 5, 0).size(0), 0);
     EXPECT_FALSE(torch::equal(trainer.Sample(4, 0, 1)[0], all[0]));
+  }
+}
+
+// In cells of a grid of 32 along a side of 1, by the squash of the model.
+TEST(GanTrainer, SamplesWithFairingAreWhatIsDrawnWithFewBends) {
+  for (const Squash squash : {Squash::kClamp, Squash::kTanh}) {
+    ModelOptions model = TinyModel();
+    model.squash = squash;
+    GanOptions options = TinyGan();
+    options.fairing = 0.7;
+    options.fairing_power = 0.2;
+    GanTrainer plain(model, TinyGan(), 5, torch::kCPU), fair(model, options, 5, torch::kCPU);
+    for (GanTrainer* trainer : {&plain, &fair}) {
+      trainer->BeginEpisode(0, 4, true);
+      Train(2, Spheres(4), trainer);
+    }
+    const torch::Tensor drawn = plain.Sample(3, 0, 4), sample = fair.Sample(3, 0, 4);
+    const torch::Tensor cells = Distances(drawn, model) * 32.0;
+    const torch::Tensor wanted = WithFewBends(cells, {.weight = 0.7, .power = 0.2});
+    EXPECT_LT((Distances(sample, model) * 32.0 - wanted).abs().max().item<double>(), 2e-3);
+    EXPECT_GT((sample - drawn).abs().max().item<double>(), 1e-3);
+    EXPECT_EQ(fair.Sample(3, 0, 0).size(0), 0);
+    EXPECT_TRUE(torch::equal(fair.Sample(3, 1, 1)[0], sample[1]));
   }
 }
 
