@@ -20,7 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using cli::Antigrasp;
+using cli::ExpectRefused;
 using cli::Outcome;
+using cli::Shell;
 using shapes::CsvRows;
 using shapes::TempFolder;
 
