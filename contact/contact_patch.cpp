@@ -112,7 +112,7 @@ void AddOutline(const Patch& sorted, const Count& count, std::size_t most, Patch
 
 }  // namespace
 
-std::vector<PatchPoint> PatchCorners(std::vector<PatchPoint> points, int most) {
+std::vector<PatchPoint> PatchCorners(std::vector<PatchPoint> points, int most, bool all_ends) {
   if (points.empty()) return {};
   std::sort(points.begin(), points.end(), Before);
   JoinCopies(&points);
@@ -130,8 +130,9 @@ std::vector<PatchPoint> PatchCorners(std::vector<PatchPoint> points, int most) {
   AddOutline(points, bears, room, &corners);
   const auto overlaps = [](const PatchPoint& point) { return point.distance < 0.0; };
   // Where all of them are lowest ones, the next outline has them.
-  if (std::any_of(points.begin(), points.end(),
-                  [&](const PatchPoint& point) { return overlaps(point) && !point.lowest; })) {
+  if (all_ends && std::any_of(points.begin(), points.end(), [&](const PatchPoint& point) {
+        return overlaps(point) && !point.lowest;
+      })) {
     AddOutline(points, overlaps, room, &corners);
   }
   AddOutline(

@@ -18,11 +18,12 @@ struct PatchPoint {
 
 // At most `most` of the points, which carry the load and keep the patch's extent. Outlines (corners
 // of the hull) in this order, as long as there is room: of the deepest points, of the lowest ones
-// within 20 um of them (what yields by that much bears on these too), of all that overlap (a ridge
-// across the pad bears at both of its ends, though one is deeper), of all lowest ones, of all.
-// Corners that stand out by less than a micrometre are none, and two within 20 um are the deeper
-// one. Where an outline has too many corners, the one that stands out least goes first. The answer
-// does not depend on the order of the points, nor on how many there are inside. n log n.
-std::vector<PatchPoint> PatchCorners(std::vector<PatchPoint> points, int most);
+// within 20 um of them (what yields by that much bears on these too), with `all_ends` of all that
+// overlap (a ridge across the pad bears at both of its ends, though one is deeper), of all lowest
+// ones, of all. Corners that stand out by less than a micrometre are none, and two within 20 um are
+// the deeper one. Where an outline has too many corners, the one that stands out least goes first.
+// The answer does not depend on the order of the points, nor on how many there are inside. n log n.
+std::vector<PatchPoint> PatchCorners(std::vector<PatchPoint> points, int most,
+                                     bool all_ends = false);
 
 }  // namespace antigrasp

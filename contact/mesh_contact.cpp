@@ -217,10 +217,11 @@ int ContactSolid::Touch(const SpherePose& sphere, double margin, SurfaceContact*
 }
 
 int ContactSolid::Touch(const PadPose& pad, double margin, SurfaceContact* out, int most,
-                        TouchCache* cache) const {
+                        TouchCache* cache, bool exact_load) const {
   std::vector<PatchPoint> points;
   const auto add = [&](std::int32_t face) {
-    AddPadContacts(pad, margin, impl_->Corners(face), impl_->features.normal(face), &points);
+    AddPadContacts(pad, margin, impl_->Corners(face), impl_->features.normal(face), exact_load,
+                   &points);
   };
   const PadPose region = FrontRegion(pad, margin);
   if (cache == nullptr) {
@@ -238,10 +239,10 @@ int ContactSolid::Touch(const PadPose& pad, double margin, SurfaceContact* out, 
   points.erase(side, points.end());
   const int for_sides = of_sides.empty() ? 0 : std::min(kSideContacts, most - 1);
   int count = 0;
-  for (const PatchPoint& point : PatchCorners(std::move(points), most - for_sides)) {
+  for (const PatchPoint& point : PatchCorners(std::move(points), most - for_sides, exact_load)) {
     out[count++] = PadContact(pad, point);
   }
-  for (const PatchPoint& point : PatchCorners(std::move(of_sides), for_sides)) {
+  for (const PatchPoint& point : PatchCorners(std::move(of_sides), for_sides, exact_load)) {
     out[count++] = PadContact(pad, point);
   }
   return count;

@@ -45,10 +45,13 @@ class ContactSolid {
   // rectangle, from the margin ahead to the pad's back, cut out exactly, then PatchCorners. A flat
   // face gives the corners of the polygon that it has in common with the pad however it is cut into
   // triangles; where the surface bends away the patch ends at the margin. Approximate: of a curved
-  // or bumpy patch a few points stand for all; the sides of the pad touch what has come in through
-  // them, with no margin; where a ridge crosses the rim the normal is that of one of its two faces.
+  // or bumpy patch a few points stand for all; the sides of the pad touch nothing; where a ridge
+  // crosses the rim the normal is that of one of its two faces. `exact_load`, for simulations whose
+  // steps are so small that what overlaps is a load and not a step: a ridge that leans touches at
+  // both of its ends where both overlap, and what has come in through a side of the pad is touched
+  // by that side.
   int Touch(const PadPose& pad, double margin, SurfaceContact* out, int most = kMostContacts,
-            TouchCache* cache = nullptr) const;
+            TouchCache* cache = nullptr, bool exact_load = false) const;
 
   // Where a table {x: normal . x <= offset} touches (normal: unit): corners of the object's hull,
   // chosen as a pad's, so that the support polygon is kept. Here alone the contact's normal is the

@@ -87,7 +87,7 @@ WayOut ShortestWayOut(const Polygon& polygon, const Vector3d& half) {
 }  // namespace
 
 void AddPadContacts(const PadPose& pad, double margin, const std::array<Vector3d, 3>& corners,
-                    const Vector3d& normal, std::vector<PatchPoint>* points) {
+                    const Vector3d& normal, bool sides, std::vector<PatchPoint>* points) {
   const Vector3d front = pad.Front();
   const Vector3d low(-2.0 * pad.half[0], -pad.half[1], -pad.half[2]);
   const Vector3d high(margin, pad.half[1], pad.half[2]);
@@ -111,7 +111,7 @@ void AddPadContacts(const PadPose& pad, double margin, const std::array<Vector3d
     if (least[axis] < low[axis]) clip(axis, -1.0, low[axis]);
   }
   const Polygon& polygon = buffers[used];
-  if (const WayOut way = ShortestWayOut(polygon, pad.half); way.axis > 0) {
+  if (const WayOut way = sides ? ShortestWayOut(polygon, pad.half) : WayOut(); way.axis > 0) {
     for (std::size_t i = 0; i < polygon.size; ++i) {
       const Vector3d& q = polygon.corner[i];
       const double depth = pad.half[way.axis] - way.sign * q[way.axis];

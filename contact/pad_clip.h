@@ -14,12 +14,12 @@ namespace antigrasp {
 // frame of the front face; faces that look away from the pad add nothing. A point's normal is the
 // pad's; on the rim of the front face the face's own, as far as the rim's normals reach (those
 // between the front face and the sides that meet there): a surface that rises beyond the rim is
-// touched by the rim. What has come in through a side of the pad (deeper than 0.25 mm, and nearer
-// to that side) is touched by the side. Bits of a corner that two faces share are the same from
-// both.
+// touched by the rim. With `sides`, what has come in through a side of the pad (deeper than 0.25
+// mm, and nearer to that side) is touched by the side. Bits of a corner that two faces share are
+// the same from both.
 void AddPadContacts(const PadPose& pad, double margin,
                     const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& normal,
-                    std::vector<PatchPoint>* points);
+                    bool sides, std::vector<PatchPoint>* points);
 
 // Such a point in the object's frame.
 SurfaceContact PadContact(const PadPose& pad, const PatchPoint& point);

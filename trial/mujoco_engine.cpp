@@ -48,7 +48,7 @@ int TouchTip(Scene* scene, int tip, const Isometry3d& to_body, const Vector3d& c
                                near);
   }
   return scene->solid->Touch(PadAt(scene->tip, to_body, center, tip == 0 ? 1.0 : -1.0), kMargin,
-                             found, kMostContacts, near);
+                             found, kMostContacts, near, /*exact_load=*/true);
 }
 
 // The collision function of all pairs: table and body, tip and body. The body's geom is a box that

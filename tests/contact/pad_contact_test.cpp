@@ -34,9 +34,9 @@ PadPose PadFromRight(const Vector3d& front, double half_y, double half_z, double
 }
 
 std::vector<SurfaceContact> PadTouches(const ContactSolid& solid, const PadPose& pad, int most = 8,
-                                       TouchCache* cache = nullptr) {
+                                       TouchCache* cache = nullptr, bool exact_load = false) {
   std::vector<SurfaceContact> contacts(static_cast<std::size_t>(most));
-  contacts.resize(solid.Touch(pad, kPadMargin, contacts.data(), most, cache));
+  contacts.resize(solid.Touch(pad, kPadMargin, contacts.data(), most, cache, exact_load));
   return contacts;
 }
 
@@ -219,7 +219,7 @@ TEST(PadContact, OnARidgeThatLeansBearsAtBothEnds) {
     for (const double end : {-1.0, 1.0}) {
       const double depth = 0.04e-3 - end * 0.006 * std::sin(lean);
       int found = 0;
-      for (const SurfaceContact& contact : PadTouches(cylinder, pad)) {
+      for (const SurfaceContact& contact : PadTouches(cylinder, pad, 8, nullptr, true)) {
         found += contact.position.z() * end > 0.0055 && std::abs(contact.position.y()) < 1e-9 &&
                  std::abs(contact.distance + depth) < 1e-6;
       }
@@ -233,7 +233,8 @@ TEST(PadContact, OfAStepThatComesInFromTheSideIsThatSides) {
   const ContactSolid stairs(shapes::Extruded(
       {{-0.02, -0.02}, {0.016, -0.02}, {0.016, 0.0}, {0.02, 0.0}, {0.02, 0.02}, {-0.02, 0.02}},
       {{0, 1, 2}, {0, 2, 5}, {2, 3, 4}, {2, 4, 5}}, 0.04));
-  const auto contacts = PadTouches(stairs, PadFromRight({0.01605, -0.0059, 0.0}, 0.006, 0.005));
+  const auto contacts =
+      PadTouches(stairs, PadFromRight({0.01605, -0.0059, 0.0}, 0.006, 0.005), 8, nullptr, true);
   int at_side = 0, on_floor = 0;
   for (const SurfaceContact& contact : contacts) {
     if (contact.distance < 0.0) {
