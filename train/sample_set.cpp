@@ -3,12 +3,14 @@
 #include <torch/types.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/models/sdf_values.h"
@@ -20,6 +22,10 @@
 namespace antigrasp {
 
 std::filesystem::path WriteSamples(const SampleRequest& request, RunObserver* observer) {
+  if (std::isnan(request.fairing) || std::isnan(request.fairing_power)) {
+    throw InputError("not a number", "--fairing, --fairing-power",
+                     "a weight of at least 0, a power");
+  }
   const std::filesystem::path path = FindNetworks(request.networks);
   RequireNotRead(path, {request.out});
   RequireShapeSetName(request.out);

@@ -122,6 +122,7 @@ TEST(Cli, RefusesBadInputInOneLineAndWritesNothing) {
   ExpectRefused("train " + kSmoke, "--out");
   ExpectRefused("sample " + dir + "not.h5 --out " + dir + "s.h5", "not a checkpoint");
   ExpectRefused("sample " + dir + "none.pt --out " + dir + "s.h5", "no such networks");
+  ExpectRefused("sample cylinders-prior --fairing nan --out " + dir + "s.h5", "not a number");
   for (const char* command : {"sample cylinders-prior", "dataset make prisms"}) {
     ExpectRefused(std::string(command) + " --count 1 --out " + dir + "x.obj", "name of a mesh");
   }
