@@ -139,9 +139,9 @@ class BundleTable {
     char text[400];
     std::snprintf(text, sizeof text,
                   "%zu of %lld objects in %s\nconvex parts (bundle.csv): at most %.1f %% of an "
-                  "object's volume too much, Hausdorff distance %s\n",
+                  "object's volume too much, Hausdorff distance %.2f mm\n",
                   made_, static_cast<long long>(objects), out.c_str(), 100.0 * covered_,
-                  LengthText(hausdorff_).c_str());
+                  1000.0 * hausdorff_);
     return text;
   }
 
@@ -178,7 +178,12 @@ BundleReport WriteBundles(const BundleRequest& request, RunObserver* observer) {
         results.AddToTable(table.TakeText());
       },
       observer->Phase("bundling"));
-  if (table.made() == 0) throw InputError(first, request.inputs.front(), "a closed solid");
+  if (table.made() == 0) {
+    throw InputError(first, request.inputs.front(),
+                     request.gripper.empty()
+                         ? "a closed solid"
+                         : "a closed solid, somewhere narrower than the gripper opens");
+  }
   results.Commit(table.TakeText());
   report.text = table.Summary(objects.size(), request.out);
   return report;

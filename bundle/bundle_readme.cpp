@@ -29,7 +29,7 @@ std::string BundleReadme(const ObjectBundle& bundle, BundleTarget target) {
       bundle.mass, center.x(), center.y(), center.z());
   text += Line("- friction %g between the object and what touches it\n", bundle.friction);
   text += Line(
-      "- %zu convex parts: they cover %.2f %% of the volume too much and miss %.2f %%; Hausdorff "
+      "- convex parts: %zu, which cover %.2f %% of the volume too much and miss %.2f %%; Hausdorff "
       "distance %.2f mm, deepest dent covered %.2f mm (a cell of a 32^3 grid is %.2f mm)\n",
       bundle.parts.size(), 100.0 * bundle.errors.covered, 100.0 * bundle.errors.missing,
       1000.0 * bundle.errors.hausdorff, 1000.0 * bundle.errors.dent, 1000.0 * bundle.cell);

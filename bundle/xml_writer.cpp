@@ -2,31 +2,9 @@
 
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/format.h"
+#include "antigrasp/core/markup.h"
 
 namespace antigrasp {
-
-std::string XmlEscaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 std::string NumbersText(std::initializer_list<double> values) {
   std::string text;
@@ -57,7 +35,7 @@ void XmlWriter::Leaf(std::string_view element, const Attributes& attributes) {
 }
 
 void XmlWriter::Text(std::string_view element, std::string_view text) {
-  text_ += Start(element, {}) + ">" + XmlEscaped(text) + "</" + std::string(element) + ">\n";
+  text_ += Start(element, {}) + ">" + MarkupEscaped(text) + "</" + std::string(element) + ">\n";
 }
 
 std::string XmlWriter::Take() {
@@ -68,7 +46,7 @@ std::string XmlWriter::Take() {
 std::string XmlWriter::Start(std::string_view element, const Attributes& attributes) const {
   std::string start = std::string(2 * open_.size(), ' ') + "<" + std::string(element);
   for (const auto& [name, value] : attributes) {
-    start += " " + std::string(name) + "=\"" + XmlEscaped(value) + "\"";
+    start += " " + std::string(name) + "=\"" + MarkupEscaped(value) + "\"";
   }
   return start;
 }

@@ -9,8 +9,6 @@
 
 namespace antigrasp {
 
-// Text in an attribute or element: & < > " escaped.
-std::string XmlEscaped(std::string_view text);
 // "0.5 0 -1", digits enough to read back the same numbers.
 std::string NumbersText(std::initializer_list<double> values);
 std::string NumbersText(const Eigen::Vector3d& v);

@@ -20,7 +20,7 @@ struct FewBends {
 // H: second differences at a node, mixed ones those of the cells around it; eps falls from .1 to
 // .005. By reweighted least squares, conjugate gradients within. Fairing makes shapes tidy, not
 // true (docs/training.md, "Few bends"). Not differentiable; every shape by itself; same bytes for
-// any number of threads. Some 40 ms a shape of 32^3.
+// any number of threads. 20 to 40 ms a shape of 32^3.
 at::Tensor WithFewBends(const at::Tensor& distances, const FewBends& options);
 
 }  // namespace antigrasp

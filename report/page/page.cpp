@@ -4,35 +4,10 @@
 #include <array>
 
 #include "antigrasp/core/check.h"
+#include "antigrasp/core/markup.h"
 #include "antigrasp/report/page/base64.h"
 
 namespace antigrasp {
-
-std::string HtmlEscape(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 std::string FillTemplate(std::string_view page_template, const std::string& title,
                          const ReportPayload& payload) {
@@ -41,7 +16,7 @@ std::string FillTemplate(std::string_view page_template, const std::string& titl
     std::string value;
     std::size_t at = 0;
   };
-  std::array<Marker, 3> markers = {Marker{"ANTIGRASP_TITLE", HtmlEscape(title)},
+  std::array<Marker, 3> markers = {Marker{"ANTIGRASP_TITLE", MarkupEscaped(title)},
                                    Marker{"\"ANTIGRASP_REPORT_JSON\"", payload.json},
                                    Marker{"ANTIGRASP_BLOB_BASE64", Base64(payload.blob)}};
   for (Marker& marker : markers) {

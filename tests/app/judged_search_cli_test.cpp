@@ -20,7 +20,7 @@ using cli::ExpectRefused;
 using cli::Outcome;
 using shapes::TempFolder;
 
-constexpr const char* kQuick =
+constexpr const char* kQuickSearch =
     " --friction 0.25 --starts 1 --descent-steps 10 --generations 1 --judge-grasps 4 "
     "--judge-draws 1 --num-grasps 6 --num-draws 2 --subdivide 12 ";
 
@@ -29,7 +29,7 @@ TEST(JudgedSearchCli, TriesBothMeshesAsTrialDoesAndDoesNotDependOnTheThreads) {
   const std::string dir = folder.path().string() + "/";
   WriteMesh(folder / "box.stl", shapes::Box({30, 40, 60}));
   WriteMesh(folder / "cube.stl", shapes::Box({40, 40, 40}));
-  const std::string search = "perturb search --objective trial" + std::string(kQuick) + dir +
+  const std::string search = "perturb search --objective trial" + std::string(kQuickSearch) + dir +
                              "box.stl " + dir + "cube.stl ";
   const Outcome outcome = Antigrasp(search + "--threads 1 --out " + dir + "one");
   ASSERT_EQ(outcome.code, 0) << outcome.text;
@@ -84,8 +84,8 @@ TEST(JudgedSearchCli, ListensToAProgram) {
   // Every object has the score 0.5: nothing is better than the original.
   const std::string judge =
       "sed -u 's/.*\\\"id\\\": *\\([0-9]*\\).*/{\\\"id\\\": \\1, \\\"score\\\": 0.5}/'";
-  const Outcome outcome = Antigrasp("perturb search --objective \"" + judge + "\"" + kQuick + dir +
-                                    "cube.stl --out " + dir + "out");
+  const Outcome outcome = Antigrasp("perturb search --objective \"" + judge + "\"" + kQuickSearch +
+                                    dir + "cube.stl --out " + dir + "out");
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   CsvReader rows(folder / "out/perturb.csv");
   ASSERT_TRUE(rows.Next());

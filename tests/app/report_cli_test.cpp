@@ -25,7 +25,7 @@ using cli::Outcome;
 using nlohmann::json;
 using shapes::TempFolder;
 
-constexpr const char* kQuick = " --num-grasps 10 --num-draws 3 ";
+constexpr const char* kQuickReport = " --num-grasps 10 --num-draws 3 ";
 
 // The data of a page.
 json DataOf(const fs::path& page) {
@@ -72,9 +72,9 @@ TEST(ReportCli, ShowsObjectsWithTheScoresOfEvaluateAndTheBrokenOnesToo) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/";
   MakeMeshes(folder / "in");
-  ASSERT_EQ(Antigrasp("evaluate " + dir + "in" + kQuick + "--out " + dir + "s.csv").code, 0);
+  ASSERT_EQ(Antigrasp("evaluate " + dir + "in" + kQuickReport + "--out " + dir + "s.csv").code, 0);
   const auto scores = ScoresIn(folder / "s.csv");
-  const json data = ReportOf(dir + "in --title '<i>' " + kQuick, folder / "r.html");
+  const json data = ReportOf(dir + "in --title '<i>' " + kQuickReport, folder / "r.html");
   EXPECT_EQ(data["kind"], "objects");
   EXPECT_EQ(data["title"], "<i>");
   EXPECT_TRUE(data["run"].is_null());
@@ -101,9 +101,9 @@ TEST(ReportCli, ShowsObjectsWithTheScoresOfEvaluateAndTheBrokenOnesToo) {
   EXPECT_NE(html.find("<title>&lt;i&gt;</title>"), std::string::npos);
   EXPECT_EQ(html.find("<b>\"it's"), std::string::npos);
 
-  ReportOf(dir + "in --title '<i>' --threads 1 " + kQuick, folder / "one.html");
+  ReportOf(dir + "in --title '<i>' --threads 1 " + kQuickReport, folder / "one.html");
   EXPECT_EQ(html, ReadFile(folder / "one.html"));
-  EXPECT_EQ(ReportOf(dir + "in --limit 3" + kQuick, folder / "r.html")["objects"].size(), 3u);
+  EXPECT_EQ(ReportOf(dir + "in --limit 3" + kQuickReport, folder / "r.html")["objects"].size(), 3u);
 }
 
 TEST(ReportCli, UsesTheConstantsOfATableOfScoresOrShowsItAlone) {
@@ -112,7 +112,7 @@ TEST(ReportCli, UsesTheConstantsOfATableOfScoresOrShowsItAlone) {
   MakeMeshes(folder / "in");
   WriteMesh(folder / "first.stl", shapes::Cylinder(1.0, 3.0, 24));
   ASSERT_EQ(Antigrasp("evaluate " + dir + "first.stl " + dir + "in --seed 5 --friction 0.6" +
-                      kQuick + "--out " + dir + "s.csv")
+                      kQuickReport + "--out " + dir + "s.csv")
                 .code,
             0);
   const auto scores = ScoresIn(folder / "s.csv");
@@ -139,8 +139,8 @@ TEST(ReportCli, UsesTheConstantsOfATableOfScoresOrShowsItAlone) {
 
   // Two tables of one metric, by two judges.
   for (const char* judge : {"epsilon", "settled"}) {
-    ASSERT_EQ(Antigrasp("evaluate " + dir + "in --seed 5 --friction 0.6" + kQuick + "--judge " +
-                        judge + " --out " + dir + judge + ".csv")
+    ASSERT_EQ(Antigrasp("evaluate " + dir + "in --seed 5 --friction 0.6" + kQuickReport +
+                        "--judge " + judge + " --out " + dir + judge + ".csv")
                   .code,
               0);
   }
@@ -314,8 +314,8 @@ TEST(ReportCli, ShowsPerturbedObjectsBesideTheirOriginals) {
   const TempFolder folder;
   const std::string dir = folder.path().string() + "/";
   MakeMeshes(folder / "in");
-  ASSERT_EQ(Antigrasp("perturb random " + dir + "in --iterations 200 --seed 3" + kQuick + "--out " +
-                      dir + "p")
+  ASSERT_EQ(Antigrasp("perturb random " + dir + "in --iterations 200 --seed 3" + kQuickReport +
+                      "--out " + dir + "p")
                 .code,
             0);
   const auto before = ScoresIn(folder / "p/perturb.csv", "graspability_before");
@@ -360,7 +360,7 @@ TEST(ReportCli, ShowsTrialsBesideTheObjectsOfTheirNames) {
   folder.Write("trials/executions.csv",
                "object,protocol,grasp,robust_quality,outcome\nball.stl,paper,3,0.002,slipped\n");
   const json data =
-      ReportOf(dir + "ball.stl" + kQuick + "--trials " + dir + "trials", folder / "r.html");
+      ReportOf(dir + "ball.stl" + kQuickReport + "--trials " + dir + "trials", folder / "r.html");
   const json& trials = data["objects"][0]["trials"];
   EXPECT_EQ(trials["series"][0]["held"], 0.75);
   EXPECT_EQ(trials["grasps"][0]["outcomes"], json::parse(R"([["slipped", 1]])"));

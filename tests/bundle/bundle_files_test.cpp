@@ -106,10 +106,11 @@ TEST(BundleReadme, StatesTheErrorsOfTheParts) {
   bundle.errors = {0.0125, 0.0025, 0.0015, 0.00125};
   bundle.cell = 0.00225;
   const std::string readme = BundleReadme(bundle, BundleTarget::kMujoco);
-  EXPECT_NE(readme.find(
-                "they cover 1.25 % of the volume too much and miss 0.25 %; Hausdorff distance 1.50 "
-                "mm, deepest dent covered 1.25 mm (a cell of a 32^3 grid is 2.25 mm)"),
-            std::string::npos)
+  EXPECT_NE(
+      readme.find(
+          "which cover 1.25 % of the volume too much and miss 0.25 %; Hausdorff distance 1.50 "
+          "mm, deepest dent covered 1.25 mm (a cell of a 32^3 grid is 2.25 mm)"),
+      std::string::npos)
       << readme;
   EXPECT_NE(readme.find("--mjcf=self_check.xml"), std::string::npos);
   EXPECT_EQ(readme.find("URDF"), std::string::npos);
