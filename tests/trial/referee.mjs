@@ -1,6 +1,8 @@
-// Plays the scenes of referee_scenes in MuJoCo 3, by its own contacts on the convex mesh and with phases of fixed length,
+// Plays the scenes of referee_scenes in MuJoCo 3, by its own contacts on convex meshes and with phases of fixed length,
 // and compares what is held. node referee.mjs SCENES_PROGRAM VIEWER_FOLDER [fixed]; exit code 0 where enough outcomes are equal,
 // 1 where not, 77 where the package is missing.
+// node referee.mjs SCENES_PROGRAM VIEWER_FOLDER objects FRICTION GRASPS FOLDER...: the meshes of folders, as convex parts;
+// prints what is held, here and there, and paired by name against the first folder (docs/perturbation.md).
 import { execFileSync } from "node:child_process";
 import { createRequire } from "node:module";
 import { pathToFileURL } from "node:url";
@@ -39,16 +41,17 @@ function mjcf(all, solid) {
     <inertial pos="0 0 0" mass="${all.finger_mass}" diaginertia="1 1 1"/>
     <geom name="${name}" type="sphere" size="${all.tip_radius - MARGIN}" contype="0" conaffinity="0"/>
     <site name="${name}" type="sphere" size="${2 * all.tip_radius}"/></body>`;
-  const pair = (name, condim) => `<pair geom1="${name}" geom2="solid" condim="${condim}" margin="${MARGIN}"
-    solref="${solref}" solimp="0.99 0.999 0.0001"/>`;
+  const pair = (name, condim) =>
+    solid.parts.map((_, k) => `<pair geom1="${name}" geom2="part${k}" condim="${condim}" margin="${MARGIN}"
+    solref="${solref}" solimp="0.99 0.999 0.0001"/>`).join("");
   return `<mujoco><option timestep="${all.time_step}" gravity="0 0 0" cone="elliptic" impratio="100" solver="Newton"
     tolerance="1e-8"/>
-   <asset><mesh name="solid" vertex="${solid.corners.flat().join(" ")}"/></asset>
+   <asset>${solid.parts.map((corners, k) => `<mesh name="part${k}" vertex="${corners.flat().join(" ")}"/>`).join("")}</asset>
    <worldbody>
     <body name="table" mocap="true"><geom name="table" type="plane" size="1 1 1" contype="0" conaffinity="0"/></body>
     <body name="solid"><freejoint/>
      <inertial pos="0 0 0" mass="${solid.mass}" diaginertia="${solid.inertia.join(" ")}"/>
-     <geom name="solid" type="mesh" mesh="solid" contype="0" conaffinity="0"/></body>
+     ${solid.parts.map((_, k) => `<geom name="part${k}" type="mesh" mesh="part${k}" contype="0" conaffinity="0"/>`).join("")}</body>
     ${tip("tip1", 1)} ${tip("tip2", -1)}
    </worldbody>
    <equality><joint joint1="tip1" joint2="tip2" polycoef="0 1 0 0 0" solref="${solref}"/></equality>
@@ -73,7 +76,7 @@ class Solid {
     Object.assign(this, { mujoco, all, solid });
     this.model = mujoco.MjModel.from_xml_string(mjcf(all, solid));
     this.data = new mujoco.MjData(this.model);
-    this.radius = Math.max(...solid.corners.map(length));
+    this.radius = Math.max(...solid.parts.flat().map(length));
   }
 
   // "closing", "lifting" or "loading": where it was lost; "held".
@@ -101,8 +104,9 @@ class Solid {
     const { all, model, data } = this;
     this.scene = scene;
     const friction = model.pair_friction; // tangential, tangential, torsional (a length), rolling, rolling
-    [all.table_friction, scene.friction, scene.friction].forEach((mu, pair) => {
-      friction.set([mu, mu, mu * all.torsion], 5 * pair);
+    const parts = this.solid.parts.length;
+    [all.table_friction, scene.friction, scene.friction].forEach((mu, pairs) => {
+      for (let k = 0; k < parts; ++k) friction.set([mu, mu, mu * all.torsion], 5 * (pairs * parts + k));
     });
     const out = 0.5 * scene.opening + all.tip_radius;
     model.body_pos.set([-out, 0, 0, out, 0, 0], 9);
@@ -200,34 +204,86 @@ class Solid {
 }
 
 const mujoco = await loadPackage();
-const all = JSON.parse(execFileSync(scenesProgram, pace, { encoding: "utf8", maxBuffer: 1 << 28 }));
-let played = 0,
-  equal = 0,
-  held = 0;
-const others = [];
-for (const solid of all.solids) {
+const all = JSON.parse(execFileSync(scenesProgram, pace, { encoding: "utf8", maxBuffer: 1 << 30 }));
+
+// [{ scene, theirs }] of a solid; what began in a collision is nothing to play.
+function playAll(solid) {
+  const scenes = solid.scenes.filter((scene) => scene.outcome !== "started in collision");
+  if (scenes.length === 0) return [];
   const body = new Solid(mujoco, all, solid);
-  for (const scene of solid.scenes) {
-    if (scene.outcome === "started in collision") continue; // nothing to play
-    const theirs = body.play(scene);
-    ++played;
-    held += scene.held ? 1 : 0;
-    if (scene.held === (theirs === "held")) ++equal;
-    else
-      others.push(
-        `${solid.name}, grasp ${scene.grasp}, execution ${scene.draw}: ${scene.outcome} here, ` +
-          `${theirs === "held" ? "held" : `lost ${theirs}`} there (friction ${scene.friction.toFixed(3)})` +
-          (scene.penetration > 1e-4 ? `, not trusted: ${(1000 * scene.penetration).toFixed(2)} mm deep` : ""),
-      );
-  }
+  const played = scenes.map((scene) => ({ scene, theirs: body.play(scene) }));
   body.end();
+  return played;
 }
-const share = equal / played;
-console.log(
-  `${all.solids.length} convex solids. MuJoCo ${all.engine} with our contacts, MuJoCo ${mujoco.mj_versionString()} with its own: ` +
-    `${equal} of ${played} outcomes equal (${(100 * share).toFixed(1)} %), ${held} held here; the others:`,
-);
-for (const line of others) console.log(`  ${line}`);
-if (played < FEWEST) console.log(`expected at least ${FEWEST} outcomes`);
-if (share < EQUAL) console.log(`expected at least ${100 * EQUAL} % equal`);
-process.exit(played < FEWEST || share < EQUAL ? 1 : 0);
+
+const same = ({ scene, theirs }) => scene.held === (theirs === "held");
+const percent = (part, whole) => `${((100 * part) / whole).toFixed(1)} %`;
+
+function testConvexSolids() {
+  const others = [];
+  let played = 0,
+    equal = 0,
+    held = 0;
+  for (const solid of all.solids) {
+    for (const one of playAll(solid)) {
+      const { scene, theirs } = one;
+      ++played;
+      held += scene.held ? 1 : 0;
+      if (same(one)) ++equal;
+      else
+        others.push(
+          `${solid.name}, grasp ${scene.grasp}, execution ${scene.draw}: ${scene.outcome} here, ` +
+            `${theirs === "held" ? "held" : `lost ${theirs}`} there (friction ${scene.friction.toFixed(3)})` +
+            (scene.penetration > 1e-4 ? `, not trusted: ${(1000 * scene.penetration).toFixed(2)} mm deep` : ""),
+        );
+    }
+  }
+  const share = equal / played;
+  console.log(
+    `${all.solids.length} convex solids. MuJoCo ${all.engine} with our contacts, MuJoCo ${mujoco.mj_versionString()} with its own: ` +
+      `${equal} of ${played} outcomes equal (${percent(equal, played)}), ${held} held here; the others:`,
+  );
+  for (const line of others) console.log(`  ${line}`);
+  if (played < FEWEST) console.log(`expected at least ${FEWEST} outcomes`);
+  if (share < EQUAL) console.log(`expected at least ${100 * EQUAL} % equal`);
+  return played < FEWEST || share < EQUAL ? 1 : 0;
+}
+
+// Mean and 95 % half width (normal) of numbers.
+function interval(numbers) {
+  const mean = numbers.reduce((a, b) => a + b, 0) / numbers.length;
+  const variance = numbers.reduce((a, b) => a + (b - mean) ** 2, 0) / (numbers.length - 1);
+  return `${mean.toFixed(1)} +-${(1.96 * Math.sqrt(variance / numbers.length)).toFixed(1)}`;
+}
+
+function compareFolders() {
+  const folders = new Map(); // name of the folder -> name of the object -> percent held, here and there
+  for (const solid of all.solids) {
+    const played = playAll(solid);
+    if (!folders.has(solid.group)) folders.set(solid.group, new Map());
+    if (played.length === 0) continue;
+    const share = (holds) => (100 * played.filter(holds).length) / played.length;
+    folders.get(solid.group).set(solid.name, {
+      played: played.length,
+      equal: played.filter(same).length,
+      here: share(({ scene }) => scene.held),
+      there: share(({ theirs }) => theirs === "held"),
+    });
+    console.error(`${solid.group} ${solid.name}: ${played.length} executions`);
+  }
+  const first = folders.values().next().value;
+  console.log("folder, objects, executions, equal outcomes, held here, held there, change here, change there (paired by name)");
+  for (const [folder, objects] of folders) {
+    const rows = [...objects];
+    const executions = rows.reduce((sum, [, row]) => sum + row.played, 0);
+    const equal = rows.reduce((sum, [, row]) => sum + row.equal, 0);
+    const mean = (side) => (rows.reduce((sum, [, row]) => sum + row[side], 0) / rows.length).toFixed(1);
+    const pairs = rows.filter(([name]) => first.has(name));
+    const change = (side) => interval(pairs.map(([name, row]) => row[side] - first.get(name)[side]));
+    const changes = objects === first ? ["", ""] : [`${change("here")} (${pairs.length})`, change("there")];
+    console.log([folder, rows.length, executions, percent(equal, executions), mean("here"), mean("there"), ...changes].join(", "));
+  }
+  return 0;
+}
+
+process.exit(pace[0] === "objects" ? compareFolders() : testConvexSolids());
