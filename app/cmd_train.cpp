@@ -12,6 +12,9 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/judge/make_judge.h"
 #include "antigrasp/perturb/hold_descent.h"
+#include "antigrasp/ranks/follow.h"
+#include "antigrasp/ranks/job.h"
+#include "antigrasp/ranks/ranked_scorer.h"
 #include "antigrasp/train/run_request.h"
 
 namespace antigrasp {
@@ -26,6 +29,7 @@ struct TrainFlags {
   std::shared_ptr<std::string> gripper;
   bool or_resume = false;
   bool overwrite = false;
+  int processes = 1;
 };
 
 // Of a run whose cem.score is not the metric's.
@@ -46,31 +50,22 @@ TriangleMesh Refined(const TriangleMesh& mesh, const RunConfig& config, const Bo
   return RefinedSolid(mesh, config.metric, options, within, seed);
 }
 
-RunResult Start(const TrainFlags& flags, RunObserver* console) {
+RunResult Start(const TrainFlags& flags, RunObserver* console, const RunParts& parts,
+                const ShapeModelMaker& make) {
   const RunConfig config = ConfigOf(flags.run);
   WarnOfLengths(config.metric);
   const OldRun old_run = flags.overwrite   ? OldRun::kReplace
                          : flags.or_resume ? OldRun::kGoOn
                                            : OldRun::kRefuse;
-  return StartRun(config, flags.out, old_run, console, {&JudgeOf, &Refined});
+  return StartRun(config, flags.out, old_run, console, parts, make);
 }
 
-void Train(const TrainFlags& flags) {
-  if (flags.resume.empty() == flags.out.empty()) {
-    throw InputError("train needs a folder", "command line",
-                     "--out RUN for a new run or --resume RUN to go on");
-  }
-  if (!flags.resume.empty() &&
-      (!flags.run.config.empty() || !flags.run.overrides.empty() || !flags.run.gripper.empty())) {
-    throw InputError("--resume with a configuration", "command line",
-                     "--resume RUN alone: a run goes on with the settings it began with");
-  }
+void Run(const TrainFlags& flags, const RunParts& parts, const ShapeModelMaker& make) {
   ConsoleObserver console;
   const std::string folder = flags.resume.empty() ? flags.out : flags.resume;
   try {
-    const RunResult result = flags.resume.empty()
-                                 ? Start(flags, &console)
-                                 : ResumeRun(flags.resume, &console, MakeGan, {&JudgeOf, &Refined});
+    const RunResult result = flags.resume.empty() ? Start(flags, &console, parts, make)
+                                                  : ResumeRun(flags.resume, &console, make, parts);
     std::printf("%s", StatisticsTable(result.stages, result.control).c_str());
     std::printf("run: %s\n", folder.c_str());
     const RunFolder run{folder};
@@ -83,6 +78,26 @@ void Train(const TrainFlags& flags) {
     }
     throw;
   }
+}
+
+void Train(const TrainFlags& flags) {
+  if (flags.resume.empty() == flags.out.empty()) {
+    throw InputError("train needs a folder", "command line",
+                     "--out RUN for a new run or --resume RUN to go on");
+  }
+  if (!flags.resume.empty() &&
+      (!flags.run.config.empty() || !flags.run.overrides.empty() || !flags.run.gripper.empty())) {
+    throw InputError("--resume with a configuration", "command line",
+                     "--resume RUN alone: a run goes on with the settings it began with");
+  }
+  const std::unique_ptr<Ranks> ranks = JoinRanks(flags.processes, [&] {
+    return flags.resume.empty() ? SameForAll(ConfigOf(flags.run))
+                                : std::vector<std::string>{"--resume " + flags.resume};
+  });
+  if (ranks != nullptr && !ranks->group().leads()) return FollowRanks(&ranks->group(), &JudgeOf);
+  if (ranks == nullptr) return Run(flags, {&JudgeOf, &Refined}, MakeGan);
+  Leader leader(&ranks->group());
+  Run(flags, {&JudgeOf, &Refined, RankedScorer(&ranks->group())}, leader.maker());
 }
 
 }  // namespace
@@ -103,6 +118,10 @@ void AddTrainCommand(CLI::App* app) {
   flags->gripper = AddGripperFlag(command, "Options");
   command->add_option("--seed", flags->run.seed, "same as --set run.seed=");
   command->add_option("--threads", flags->run.threads, "same as --set run.threads=");
+  command
+      ->add_option("--processes", flags->processes,
+                   "processes on this machine that share the work (docs/cluster.md)")
+      ->check(CLI::Range(1, 1024));
   command->add_option("--device", flags->run.device, "same as --set run.device=");
   command->add_option("--mode", flags->run.mode,
                       "same as --set cem.mode=: " + Alternatives(ChoiceNames<EpisodeMode>()));

@@ -11,6 +11,7 @@
 
 #include "antigrasp/app/console.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/launch.h"
 #include "antigrasp/core/nearest.h"
 #include "antigrasp/core/version.h"
 
@@ -20,7 +21,9 @@ namespace {
 enum ExitCode { kOk = 0, kFailure = 1, kBadInput = 2, kInterrupted = 130 };
 
 int Fail(int code, const char* message) {
-  std::fprintf(stderr, "antigrasp: %s\n", message);
+  const std::string rank = RankText();
+  std::fprintf(stderr, "antigrasp%s: %s\n", rank.empty() ? "" : (" (" + rank + ")").c_str(),
+               message);
   return code;
 }
 

@@ -7,9 +7,15 @@
 #include <exception>
 #include <mutex>
 
+#include "antigrasp/core/launch.h"
+
 namespace antigrasp {
 
-int HardwareThreads() { return std::max(1, omp_get_num_procs()); }
+// Processes of one job share a machine's.
+int HardwareThreads() {
+  static const int here = ProcessesHere();
+  return std::max(1, omp_get_num_procs() / here);
+}
 
 void ParallelFor(std::int64_t count, int threads, const std::function<void(std::int64_t)>& body,
                  const ProgressFn& progress) {

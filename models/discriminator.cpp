@@ -86,6 +86,12 @@ double DiscriminatorImpl::LargestSigma() {
   return torch::stack(sigmas).max().item<double>();  // one wait for the device
 }
 
+void DiscriminatorImpl::IterateSigma() {
+  for (auto* weights : {&weights_, &refine_}) {
+    for (SpectralWeight& weight : *weights) weight->Iterate();
+  }
+}
+
 torch::Tensor DiscriminatorImpl::forward(const torch::Tensor& sdf) {
   return ForwardFolded(Fold(sdf));
 }

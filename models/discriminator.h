@@ -26,6 +26,10 @@ class DiscriminatorImpl : public torch::nn::Module {
 
   void Initialize(RngStream* rng);  // fresh weights
 
+  // The power iterations of a forward in training mode, without one: for several forwards in
+  // evaluation mode, which then divide by the same.
+  void IterateSigma();
+
   // The largest of the singular values by which the weights are divided; NaN without spectral norm.
   double LargestSigma();
 

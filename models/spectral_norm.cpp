@@ -37,6 +37,7 @@ void SpectralWeightImpl::Initialize(double sd, RngStream* rng) {
 torch::Tensor SpectralWeightImpl::Matrix() const { return weight_.flatten(1); }
 
 void SpectralWeightImpl::Iterate() {
+  if (!normalise_) return;
   torch::NoGradGuard no_grad;
   const torch::Tensor matrix = Matrix();
   u_.copy_(Normalised(matrix.mv(Normalised(matrix.t().mv(u_)))));

@@ -20,11 +20,12 @@ class SpectralWeightImpl : public torch::nn::Module {
   // W ~ N(0, sd^2), u random, then 15 power iterations so that the first sigma is close.
   void Initialize(double sd, RngStream* rng);
 
+  void Iterate();  // the step of forward(), alone; nothing when `normalise` is off
+
   torch::Tensor Sigma();  // the estimate forward() divides by, a differentiable scalar
 
  private:
   torch::Tensor Matrix() const;
-  void Iterate();
 
   bool normalise_;
   torch::Tensor weight_, u_;

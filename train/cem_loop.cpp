@@ -69,7 +69,7 @@ ScoredStage CemLoop::ScorePrior(const std::string& origin) {
 void CemLoop::TrainStep() { model_->Step(shapes_on_device_); }
 
 torch::Tensor CemLoop::Sample() {
-  constexpr std::int64_t kChunk = 64;
+  constexpr std::int64_t kChunk = 256;  // a second; several processes share it
   const int episode = model_->episode();
   const ProgressFn progress = observer_->Phase(StageName(episode, "sampling"));
   const std::int64_t count = config_.cem.samples;

@@ -119,13 +119,14 @@ std::unique_ptr<Judge> JudgeFor(const RunConfig& config, const RunParts& parts) 
 
 RunResult Finish(const RunConfig& config, const RunFolder& folder, const torch::Tensor& prior,
                  ProvenanceRecorder* recorder, const ShapeModelMaker& make, Judge* judge,
-                 const EliteRefiner& refine) {
+                 const RunParts& parts) {
   const auto scorer = [&](const RunConfig& of) {
+    if (parts.make_scorer) return parts.make_scorer(of, judge, recorder);
     return judge != nullptr ? JudgedScorer(of, judge, recorder) : GraspabilityScorer(of, recorder);
   };
   RunResult result;
-  result.stages =
-      RunEpisodes(config, folder, make(config).get(), prior, scorer(config), recorder, refine);
+  result.stages = RunEpisodes(config, folder, make(config).get(), prior, scorer(config), recorder,
+                              parts.refine);
   if (config.cem.control) {
     const RunFolder control{folder.Control()};
     const RunLock lock(control);
@@ -165,7 +166,7 @@ RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver*
   ProvenanceRecorder recorder(run, ProvenanceNow(config), observer);
   const torch::Tensor prior = MakePrior(config, run, &recorder);
   WriteFileAtomic(run.Config(), ToToml(config));
-  return Finish(config, run, prior, &recorder, make, judge.get(), parts.refine);
+  return Finish(config, run, prior, &recorder, make, judge.get(), parts);
 }
 
 void RequireInputs(const RunConfig& config, const fs::path& folder) {
@@ -193,7 +194,7 @@ RunResult ResumeRun(const fs::path& folder, RunObserver* observer, const ShapeMo
   ProvenanceRecorder recorder(run, ReadProvenance(run), observer);
   const torch::Tensor prior =
       NetworkValuesOf(ReadShapeSet(run.Prior()), config.model, run.Prior().string());
-  return Finish(config, run, prior, &recorder, make, judge.get(), parts.refine);
+  return Finish(config, run, prior, &recorder, make, judge.get(), parts);
 }
 
 }  // namespace antigrasp

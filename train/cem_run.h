@@ -7,6 +7,7 @@
 
 #include "antigrasp/core/observer.h"
 #include "antigrasp/quality/judge.h"
+#include "antigrasp/train/cem_loop.h"
 #include "antigrasp/train/make_gan.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_folder.h"
@@ -24,10 +25,16 @@ struct RunResult {
 // Who scores the samples of a run whose cem.score is not "epsilon"; made before the work begins.
 using JudgeMaker = std::function<std::unique_ptr<Judge>(const RunConfig&)>;
 
+// Puts another scorer in the place of the usual one (nullptr: the metric scores). What it is given
+// stays as long as it does.
+using ScorerMaker =
+    std::function<StageScorer(const RunConfig& config, Judge* judge, RunObserver* observer)>;
+
 // What settings ask of the program that trains, besides the model.
 struct RunParts {
-  JudgeMaker make_judge;  // of a run whose cem.score is not "epsilon"
-  EliteRefiner refine;    // of a run with cem.refine_steps
+  JudgeMaker make_judge;         // of a run whose cem.score is not "epsilon"
+  EliteRefiner refine;           // of a run with cem.refine_steps
+  ScorerMaker make_scorer = {};  // of one that shares its samples out
 };
 
 // The CEM + GAN algorithm (V-B, VI-C): train the GAN on the prior set, then repeatedly sample,

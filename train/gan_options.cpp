@@ -4,6 +4,9 @@ namespace antigrasp {
 
 void Bind(OptionTable* table, GanOptions* options) {
   table->Add("gan.batch", &options->batch, 2, 4096, "shapes in one update");
+  table->Add("gan.micro_batches", &options->micro_batches, 0, 1024,
+             "parts that a batch is computed in, which processes can share: the same bytes for any "
+             "number of them; 0 = in one piece");
   table->Add("gan.discriminator_steps", &options->discriminator_steps, 1, 100,
              "discriminator updates for each generator update");
   table->Add("gan.learning_rate_g", &options->learning_rate_g, 0, 1, "Adam's rate, generator");

@@ -26,6 +26,10 @@ constexpr auto ChoicesOf(Augmentation) {
 // How one GAN is trained.
 struct GanOptions {
   int batch = 32;
+  // A batch is computed in this many parts, each with its own batch statistics and random numbers,
+  // whose gradients are added in one order: the same bytes for any number of processes that share
+  // them. 0 = in one piece, by one process.
+  int micro_batches = 0;
   int discriminator_steps = 1;
   double learning_rate_g = 4e-4;
   double learning_rate_d = 4e-4;

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/error.h"
@@ -18,6 +20,7 @@
 #include "antigrasp/train/adam.h"
 #include "antigrasp/train/augment.h"
 #include "antigrasp/train/averaged_generator.h"
+#include "antigrasp/train/flat_gradients.h"
 #include "antigrasp/train/network_tensors.h"
 #include "antigrasp/train/shape_model.h"
 #include "antigrasp/train/symmetries.h"
@@ -47,11 +50,21 @@ struct GanTrainer::Impl {
        torch::Device torch_device);
 
   void RestartNetworks(int episode_index);
+  // Parts of a batch: which random numbers, and what was generated from them.
+  struct Part {
+    RngStream rng;
+    torch::Tensor fake;
+  };
+  std::vector<Part> OwnParts(int update) const;
   torch::Tensor RealBatch(const torch::Tensor& shapes, RngStream* rng) const;
   torch::Tensor FakeBatch(RngStream* rng);
-  void UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake, RngStream* rng,
-                           StepReport* report);
-  void UpdateGenerator(const torch::Tensor& fake, RngStream* rng, StepReport* report);
+  LossAndGradients DiscriminatorGradients(const torch::Tensor& shapes, Part* part);
+  LossAndGradients GeneratorGradients(Part* part);
+  LossAndGradients OverParts(std::vector<Part>* parts, const std::vector<torch::Tensor>& like,
+                             const std::function<LossAndGradients(Part*)>& of_part);
+  void UpdateDiscriminator(const LossAndGradients& found, StepReport* report);
+  void UpdateGenerator(const LossAndGradients& found, StepReport* report);
+  std::int64_t PartSize() const { return options.batch / std::max(1, options.micro_batches); }
   std::pair<double, double> FiniteLossAndNorm(const torch::Tensor& loss,
                                               const std::vector<torch::Tensor>& gradients) const;
   double LearningRateFactor() const;
@@ -74,6 +87,8 @@ struct GanTrainer::Impl {
   LatentMixture latent;
   int episode = 0;
   std::int64_t iterations = 0, step = 0;
+  WholeBatch alone;
+  BatchShare* share = &alone;
 };
 
 GanTrainer::Impl::Impl(const ModelOptions& model_options, const GanOptions& gan_options,
@@ -99,9 +114,21 @@ void GanTrainer::Impl::RestartNetworks(int episode_index) {
   discriminator->Initialize(&rng);
 }
 
+// In one piece the random numbers are those of the step; parts have some each.
+std::vector<GanTrainer::Impl::Part> GanTrainer::Impl::OwnParts(int update) const {
+  const auto stage = static_cast<std::uint64_t>(episode);
+  std::vector<Part> parts;
+  for (int part = share->rank(); part < options.micro_batches; part += share->size()) {
+    const std::int64_t number =
+        (step * options.discriminator_steps + update) * options.micro_batches + part;
+    parts.push_back({RngStream(seed, "gan part", stage, static_cast<std::uint64_t>(number)), {}});
+  }
+  return parts;
+}
+
 torch::Tensor GanTrainer::Impl::RealBatch(const torch::Tensor& shapes, RngStream* rng) const {
-  torch::Tensor indices = torch::empty({options.batch}, torch::kLong);
-  for (std::int64_t i = 0; i < options.batch; ++i) {
+  torch::Tensor indices = torch::empty({PartSize()}, torch::kLong);
+  for (std::int64_t i = 0; i < PartSize(); ++i) {
     indices[i] = static_cast<std::int64_t>(rng->Below(static_cast<std::uint64_t>(shapes.size(0))));
   }
   const torch::Tensor batch =
@@ -110,34 +137,63 @@ torch::Tensor GanTrainer::Impl::RealBatch(const torch::Tensor& shapes, RngStream
 }
 
 torch::Tensor GanTrainer::Impl::FakeBatch(RngStream* rng) {
-  return generator->ForwardFolded(NormalTensor({options.batch, model.latent}, 1.0, rng).to(device));
+  return generator->ForwardFolded(NormalTensor({PartSize(), model.latent}, 1.0, rng).to(device));
 }
 
-void GanTrainer::Impl::UpdateDiscriminator(const torch::Tensor& real, const torch::Tensor& fake,
-                                           RngStream* rng, StepReport* report) {
+// Leaves in the part what was generated; with a graph where gradients are on.
+LossAndGradients GanTrainer::Impl::DiscriminatorGradients(const torch::Tensor& shapes, Part* part) {
+  const torch::Tensor real = RealBatch(shapes, &part->rng);
+  part->fake = FakeBatch(&part->rng);
+  const torch::AutoGradMode gradients(true);
   const torch::Tensor score = discriminator->ForwardFolded(  // [2 batch / pack]
-      Augment(torch::cat({real, fake.detach()}), options.augment, rng));
+      Augment(torch::cat({real, part->fake.detach()}), options.augment, &part->rng));
   const auto halves = score.chunk(2);
   const torch::Tensor loss = DiscriminatorLoss(halves[0], halves[1]);
-  const auto gradients = torch::autograd::grad({loss}, adam_discriminator.parameters());
-  std::tie(report->loss_discriminator, report->gradient_discriminator) =
-      FiniteLossAndNorm(loss, gradients);
-  if (report->loss_discriminator < options.rest_below) return;
-  report->rate_discriminator = options.learning_rate_d * LearningRateFactor();
-  adam_discriminator.Step(gradients, report->rate_discriminator);
+  return {loss, torch::autograd::grad({loss}, adam_discriminator.parameters())};
 }
 
-void GanTrainer::Impl::UpdateGenerator(const torch::Tensor& fake, RngStream* rng,
-                                       StepReport* report) {
-  // In two legs, so that the discriminator's own gradients are not computed.
-  const torch::Tensor input = fake.detach().requires_grad_();
+// In two legs, so that the discriminator's own gradients are not computed.
+LossAndGradients GanTrainer::Impl::GeneratorGradients(Part* part) {
+  const torch::Tensor input = part->fake.detach().requires_grad_();
   const torch::Tensor loss =
-      GeneratorLoss(discriminator->ForwardFolded(Augment(input, options.augment, rng)));
+      GeneratorLoss(discriminator->ForwardFolded(Augment(input, options.augment, &part->rng)));
   const auto grad_input = torch::autograd::grad({loss}, {input});
-  const auto gradients = torch::autograd::grad({fake}, adam_generator.parameters(), grad_input);
-  std::tie(report->loss_generator, report->gradient_generator) = FiniteLossAndNorm(loss, gradients);
+  return {loss, torch::autograd::grad({part->fake}, adam_generator.parameters(), grad_input)};
+}
+
+// The mean over all parts of a batch, of which this process computes some. The discriminator makes
+// its power iteration once, as for a batch in one piece.
+LossAndGradients GanTrainer::Impl::OverParts(
+    std::vector<Part>* parts, const std::vector<torch::Tensor>& like,
+    const std::function<LossAndGradients(Part*)>& of_part) {
+  discriminator->IterateSigma();
+  discriminator->eval();
+  std::vector<torch::Tensor> rows;
+  std::int64_t numbers = 1;
+  for (const torch::Tensor& parameter : like) numbers += parameter.numel();
+  for (Part& part : *parts) {
+    const LossAndGradients found = of_part(&part);
+    rows.push_back(FlatRow(found.loss, found.gradients));
+  }
+  discriminator->train();
+  const torch::Tensor own = rows.empty() ? torch::empty({0, numbers}) : torch::stack(rows);
+  const torch::Tensor sum = share->SumInOrder(own, options.micro_batches);
+  return FromFlatRow(sum / options.micro_batches, like);
+}
+
+void GanTrainer::Impl::UpdateDiscriminator(const LossAndGradients& found, StepReport* report) {
+  std::tie(report->loss_discriminator, report->gradient_discriminator) =
+      FiniteLossAndNorm(found.loss, found.gradients);
+  if (report->loss_discriminator < options.rest_below) return;
+  report->rate_discriminator = options.learning_rate_d * LearningRateFactor();
+  adam_discriminator.Step(found.gradients, report->rate_discriminator);
+}
+
+void GanTrainer::Impl::UpdateGenerator(const LossAndGradients& found, StepReport* report) {
+  std::tie(report->loss_generator, report->gradient_generator) =
+      FiniteLossAndNorm(found.loss, found.gradients);
   report->rate_generator = options.learning_rate_g * LearningRateFactor();
-  adam_generator.Step(gradients, report->rate_generator);
+  adam_generator.Step(found.gradients, report->rate_generator);
 }
 
 // Asked before the update, so that the weights stay finite; one wait for the device.
@@ -247,26 +303,38 @@ StepReport GanTrainer::Step(const torch::Tensor& shapes) {
   Impl& t = *impl_;
   AG_CHECK(t.step < t.iterations, "the episode is over");
   AG_CHECK(shapes.dim() == 5 && shapes.size(0) > 0, "shapes must be [N, 1, r, r, r], N > 0");
-  RngStream rng(t.seed, "gan", static_cast<std::uint64_t>(t.episode),
-                static_cast<std::uint64_t>(t.step));
+  const bool in_parts = t.options.micro_batches > 0;
   t.generator->train();
   t.discriminator->train();
   StepReport report;
-  torch::Tensor fake;
+  std::vector<Impl::Part> parts;
+  if (!in_parts) {
+    parts.push_back({RngStream(t.seed, "gan", static_cast<std::uint64_t>(t.episode),
+                               static_cast<std::uint64_t>(t.step)),
+                     {}});
+  }
   // The last discriminator update and the generator's share one forward of G: the discriminator
   // sees the fakes detached, then the generator is judged on the same fakes by the updated D.
-  for (int k = 1; k <= t.options.discriminator_steps; ++k) {
-    const torch::Tensor real = t.RealBatch(shapes, &rng);
-    torch::AutoGradMode gradients(k == t.options.discriminator_steps);
-    fake = t.FakeBatch(&rng);
-    torch::AutoGradMode discriminator_gradients(true);
-    t.UpdateDiscriminator(real, fake, &rng, &report);
+  for (int k = 0; k < t.options.discriminator_steps; ++k) {
+    const torch::AutoGradMode gradients(k + 1 == t.options.discriminator_steps);
+    if (in_parts) parts = t.OwnParts(k);
+    const auto of_part = [&](Impl::Part* part) { return t.DiscriminatorGradients(shapes, part); };
+    t.UpdateDiscriminator(in_parts ? t.OverParts(&parts, t.adam_discriminator.parameters(), of_part)
+                                   : of_part(&parts.front()),
+                          &report);
   }
-  t.UpdateGenerator(fake, &rng, &report);
+  const auto of_part = [&](Impl::Part* part) { return t.GeneratorGradients(part); };
+  t.UpdateGenerator(in_parts ? t.OverParts(&parts, t.adam_generator.parameters(), of_part)
+                             : of_part(&parts.front()),
+                    &report);
+  // Every process has run other parts; nobody reads the statistics of the newest generator.
+  if (in_parts && t.generator->HasStatistics()) t.generator->RestartStatistics();
   t.average.Follow(*t.generator, t.AverageDecay());
   ++t.step;
   return report;
 }
+
+void GanTrainer::ShareBatches(BatchShare* share) { impl_->share = share; }
 
 double GanTrainer::LargestSigma() const { return impl_->discriminator->LargestSigma(); }
 

@@ -9,6 +9,7 @@
 #include "antigrasp/models/discriminator.h"
 #include "antigrasp/models/named_tensors.h"
 #include "antigrasp/models/shape_generator.h"
+#include "antigrasp/train/batch_share.h"
 #include "antigrasp/train/gan_options.h"
 #include "antigrasp/train/latent_mixture.h"
 
@@ -46,6 +47,10 @@ class GanTrainer {
   // float32 network values, fastest on the trainer's own device. A loss or gradient that is not
   // finite: RuntimeFailure before it reaches the weights.
   StepReport Step(const torch::Tensor& shapes);
+
+  // Parts of batches (gan.micro_batches) are shared with other processes, whose trainers have had
+  // the same calls. Keeps the pointer.
+  void ShareBatches(BatchShare* share);
 
   // The largest singular value of a discriminator's weight, undivided; nan without spectral norm.
   double LargestSigma() const;

@@ -118,6 +118,12 @@ void Validate(const RunConfig& config, const std::string& origin) {
     throw InputError("model.pack = " + std::to_string(config.model.pack), origin,
                      "a divisor of gan.batch = " + std::to_string(config.gan.batch));
   }
+  const int parts = config.gan.micro_batches;
+  if (parts > 0 && config.gan.batch % (parts * config.model.pack) != 0) {
+    throw InputError("gan.micro_batches = " + std::to_string(parts), origin,
+                     "a divisor of gan.batch / model.pack = " +
+                         std::to_string(config.gan.batch / config.model.pack));
+  }
 }
 
 }  // namespace antigrasp

@@ -56,20 +56,20 @@ RunConfig ConfigOf(const RunRequest& request) {
 }
 
 RunResult StartRun(const RunConfig& config, const std::filesystem::path& folder, OldRun old_run,
-                   RunObserver* observer, const RunParts& parts) {
+                   RunObserver* observer, const RunParts& parts, const ShapeModelMaker& make) {
   const RunFolder run{folder};
   if (old_run == OldRun::kGoOn && run.HoldsARun()) {
     if (ToToml(ConfigOfRun(run.root)) != ToToml(config)) {
       throw InputError("the run in " + folder.string() + " was started with other settings",
                        run.Config().string(), "the same settings, --overwrite or another --out");
     }
-    return ResumeRun(run.root, observer, MakeGan, parts);
+    return ResumeRun(run.root, observer, make, parts);
   }
   if (old_run == OldRun::kReplace && run.HoldsARun()) {
     RequireInputs(config, run.root);  // what is refused costs no run
     run.Remove();
   }
-  return StartRun(config, folder, observer, MakeGan, parts);
+  return StartRun(config, folder, observer, make, parts);
 }
 
 }  // namespace antigrasp

@@ -37,6 +37,7 @@ enum class OldRun {
   kReplace  // once nothing speaks against the new one's inputs
 };
 RunResult StartRun(const RunConfig& config, const std::filesystem::path& folder, OldRun old_run,
-                   RunObserver* observer, const RunParts& parts = {});
+                   RunObserver* observer, const RunParts& parts = {},
+                   const ShapeModelMaker& make = MakeGan);
 
 }  // namespace antigrasp

@@ -29,12 +29,6 @@ std::vector<std::int64_t> Draw(const std::vector<std::int64_t>& from, std::int64
   return drawn;
 }
 
-std::vector<std::int64_t> Every(std::int64_t count) {
-  std::vector<std::int64_t> indices;
-  for (std::int64_t i = 0; i < count; ++i) indices.push_back(i);
-  return indices;
-}
-
 torch::Tensor Rows(const torch::Tensor& values, const std::vector<std::int64_t>& indices) {
   return values.index_select(0, torch::tensor(indices, torch::kLong));
 }

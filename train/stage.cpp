@@ -73,6 +73,12 @@ RemeshResult ObjectOf(const torch::Tensor& value, const RunConfig& config) {
 
 }  // namespace
 
+std::vector<std::int64_t> Every(std::int64_t count) {
+  std::vector<std::int64_t> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 SdfGrid GridOf(const torch::Tensor& value, const ModelOptions& model) {
   const torch::Tensor distances = Distances(value.to(torch::kFloat), model).contiguous();
   SdfGrid grid = UnitCubeGrid(model.resolution);
@@ -111,9 +117,7 @@ std::uint64_t StageSeed(const RunConfig& config, int episode) {
 
 ScoredStage ScoreStage(const torch::Tensor& values, const RunConfig& config,
                        const std::string& name, RunObserver* observer) {
-  std::vector<std::int64_t> all(static_cast<std::size_t>(values.size(0)));
-  std::iota(all.begin(), all.end(), 0);
-  return ScoreSamples(values, all, config, observer->Phase(name));
+  return ScoreSamples(values, Every(values.size(0)), config, observer->Phase(name));
 }
 
 ScoredStage ScoreSamples(const torch::Tensor& values, const std::vector<std::int64_t>& indices,
@@ -157,6 +161,12 @@ ScoredStage ScoreStageBy(const MeshScore& score, const torch::Tensor& values,
 
 ScoredStage ScoreStageBy(Judge* judge, const torch::Tensor& values, const RunConfig& config,
                          const ProgressFn& progress) {
+  return JudgeSamples(judge, values, Every(values.size(0)), config, progress);
+}
+
+ScoredStage JudgeSamples(Judge* judge, const torch::Tensor& values,
+                         const std::vector<std::int64_t>& indices, const RunConfig& config,
+                         const ProgressFn& progress) {
   ScoredStage scored = Unscored(values);
   const std::int64_t count = values.size(0);
   const auto report = [&](std::int64_t done) {
@@ -186,7 +196,8 @@ ScoredStage ScoreStageBy(Judge* judge, const torch::Tensor& values, const RunCon
   for (std::int64_t i = 0; i < count; ++i) {
     const auto slot = static_cast<std::size_t>(i);
     if (scored.objects[slot].ok()) {
-      batch.push_back({SampleName(i), &scored.objects[slot].mesh, static_cast<std::uint64_t>(i)});
+      batch.push_back({SampleName(indices[slot]), &scored.objects[slot].mesh,
+                       static_cast<std::uint64_t>(indices[slot])});
       place_of.push_back(slot);
     }
     if (batch.size() >= judge->BatchSize() || i + 1 == count) {

@@ -46,6 +46,11 @@ ScoredStage ScoreStageBy(const MeshScore& score, const torch::Tensor& values,
 ScoredStage ScoreStageBy(Judge* judge, const torch::Tensor& values, const RunConfig& config,
                          const ProgressFn& progress);
 
+// The same of some samples of a stage: value j is sample indices[j].
+ScoredStage JudgeSamples(Judge* judge, const torch::Tensor& values,
+                         const std::vector<std::int64_t>& indices, const RunConfig& config,
+                         const ProgressFn& progress);
+
 // Counts, mean graspability, similarity to the prior set (network values) and the shares of flat
 // edges and creases (meshes).
 StageStatistics Summarize(int stage, const ScoredStage& scored, const torch::Tensor& prior,
@@ -54,6 +59,8 @@ StageStatistics Summarize(int stage, const ScoredStage& scored, const torch::Ten
 // scores.csv: one row per sample, no wall time in it, so that equal runs write equal bytes.
 // Samples go by SampleName, the shapes of the prior set (stage -1) by their place in prior.h5.
 std::string StageScoresCsv(int stage, const ScoredStage& scored);
+
+std::vector<std::int64_t> Every(std::int64_t count);  // 0 to count - 1
 
 // A grid of distances from one sample's network values.
 SdfGrid GridOf(const torch::Tensor& value, const ModelOptions& model);

@@ -1,0 +1,120 @@
+#include "antigrasp/ranks/follow.h"
+
+#include <sstream>
+
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/version.h"
+#include "antigrasp/ranks/ranked_model.h"
+#include "antigrasp/ranks/ranked_scorer.h"
+#include "antigrasp/train/gan_model.h"
+
+namespace antigrasp {
+namespace {
+
+// A rank that repeats what rank 0's model does.
+class Follower {
+ public:
+  Follower(RankGroup* group, const JudgeMaker& make_judge)
+      : group_(group), make_judge_(make_judge), share_(group) {}
+
+  // Whether there is more to do.
+  bool Obey() {
+    const OrderHeader heard = TellOrHear(group_, {});
+    switch (heard.order) {
+      case Order::kModel:
+        Make(group_->TextFromLeader(""));
+        break;
+      case Order::kBeginEpisode:
+        model_->BeginEpisode(static_cast<int>(heard.a), heard.b, heard.c != 0);
+        break;
+      case Order::kBeginFixed:
+        model_->BeginFixedEpisode(static_cast<int>(heard.a), MixtureFromLeader(group_, {}));
+        break;
+      case Order::kLoad:
+        model_->Load(StateFromLeader(group_, {}), "rank 0");
+        break;
+      case Order::kShapes:
+        shapes_ = group_->TensorFromLeader({}).to(model_->device());
+        break;
+      case Order::kStep:
+        model_->Step(shapes_);
+        break;
+      case Order::kSample:
+        SampleTogether(group_, model_.get(), static_cast<std::uint64_t>(heard.a), heard.b, heard.c);
+        break;
+      case Order::kScore:
+        ScoreTogether(group_, heard.a, group_->TensorFromLeader({}), config_, JudgeOf(), nullptr);
+        break;
+      case Order::kEnd:
+        return false;
+    }
+    return true;
+  }
+
+ private:
+  void Make(const std::string& toml) {
+    config_ = FromToml(toml, "rank 0");
+    model_ = SharingGan(config_, &share_);
+    judge_.reset();
+  }
+
+  Judge* JudgeOf() {
+    if (config_.cem.score == kEpsilonScore) return nullptr;
+    if (judge_ == nullptr) judge_ = make_judge_(config_);
+    return judge_.get();
+  }
+
+  RankGroup* group_;
+  const JudgeMaker& make_judge_;
+  SharedBatch share_;
+  RunConfig config_;
+  std::unique_ptr<ShapeModel> model_;
+  std::unique_ptr<Judge> judge_;
+  torch::Tensor shapes_;
+};
+
+}  // namespace
+
+std::unique_ptr<ShapeModel> SharingGan(const RunConfig& config, BatchShare* share) {
+  GanTrainer trainer = MakeTrainer(config);
+  trainer.ShareBatches(share);
+  return std::make_unique<GanModel>(std::move(trainer));
+}
+
+Leader::Leader(RankGroup* group) : group_(group), share_(std::make_unique<SharedBatch>(group)) {}
+
+Leader::~Leader() {
+  try {
+    TellOrHear(group_, {Order::kEnd});
+  } catch (const std::exception&) {  // they are gone already
+  }
+}
+
+ShapeModelMaker Leader::maker() {
+  return [this](const RunConfig& config) -> std::unique_ptr<ShapeModel> {
+    std::unique_ptr<ShapeModel> model = SharingGan(config, share_.get());  // refuses first
+    TellOrHear(group_, {Order::kModel});
+    group_->TextFromLeader(ToToml(config));
+    return std::make_unique<RankedModel>(std::move(model), group_, config.gan.micro_batches > 0);
+  };
+}
+
+void FollowRanks(RankGroup* group, const JudgeMaker& make_judge) {
+  Follower follower(group, make_judge);
+  while (follower.Obey()) {
+  }
+}
+
+std::vector<std::string> SameForAll(const RunConfig& config) {
+  std::vector<std::string> same = {"antigrasp " + ProgramVersion() + " (" + ProgramCommit() + ")"};
+  std::istringstream lines(ToToml(config));
+  std::string section;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("[")) section = line.substr(1, line.find(']') - 1) + ".";
+    const std::string setting = line.substr(0, line.find("  #"));
+    if (setting.find('=') != std::string::npos) same.push_back(section + setting);
+  }
+  return same;
+}
+
+}  // namespace antigrasp

@@ -1,0 +1,61 @@
+#include "antigrasp/ranks/job.h"
+
+#include <signal.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "antigrasp/core/error.h"
+
+namespace antigrasp {
+namespace {
+
+void Say(const std::string& line) {
+  const std::string rank = RankText();
+  std::fprintf(stderr, "antigrasp (%s): %s\n", rank.c_str(), line.c_str());
+}
+
+// The words that this program was called with.
+std::vector<std::string> OwnArguments() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
+  return words;
+}
+
+}  // namespace
+
+Ranks::Ranks(std::unique_ptr<SpawnedRanks> spawned, std::unique_ptr<RankGroup> group)
+    : spawned_(std::move(spawned)), group_(std::move(group)) {}
+
+std::unique_ptr<Ranks> JoinRanks(int processes,
+                                 const std::function<std::vector<std::string>()>& same) {
+  std::optional<Launch> launch = LaunchOfEnvironment();
+  if (!launch && processes <= 1) return nullptr;
+  if (!CanJoin()) {
+    throw RuntimeFailure("several processes, but this build was made without libgloo-dev");
+  }
+  JoinOptions options;
+  options.same = same();
+  options.say = &Say;
+  std::unique_ptr<SpawnedRanks> spawned;
+  if (!launch) {
+    spawned = std::make_unique<SpawnedRanks>(processes);
+    launch = LaunchOfEnvironment();
+    options.listening = [&](std::uint16_t port) {
+      std::vector<std::string> words = OwnArguments();
+      std::vector<char*> arguments;
+      for (std::string& word : words) arguments.push_back(word.data());
+      arguments.push_back(nullptr);
+      spawned->Start(port, arguments.data());
+    };
+  }
+  if (!launch->leads()) signal(SIGINT, SIG_IGN);
+  std::unique_ptr<RankGroup> group = RankGroup::Join(*launch, options);
+  return std::make_unique<Ranks>(std::move(spawned), std::move(group));
+}
+
+}  // namespace antigrasp

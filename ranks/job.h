@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "antigrasp/ranks/rank_group.h"
+#include "antigrasp/ranks/spawn.h"
+
+namespace antigrasp {
+
+// A process's place in its job, for as long as the command runs.
+class Ranks {
+ public:
+  Ranks(std::unique_ptr<SpawnedRanks> spawned, std::unique_ptr<RankGroup> group);
+  RankGroup& group() { return *group_; }
+
+ private:
+  std::unique_ptr<SpawnedRanks> spawned_;  // ended after the group is
+  std::unique_ptr<RankGroup> group_;
+};
+
+// Joins the other processes of the job that the environment tells of, or starts `processes` - 1 of
+// them where it tells of none; nullptr: this process is alone. `same`: what all must have
+// (JoinOptions), asked for only then. Ranks other than 0 do not hear Ctrl-C: rank 0 ends them.
+std::unique_ptr<Ranks> JoinRanks(int processes,
+                                 const std::function<std::vector<std::string>()>& same);
+
+}  // namespace antigrasp

@@ -1,0 +1,146 @@
+#include "antigrasp/ranks/ranked_model.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "antigrasp/core/check.h"
+#include "antigrasp/core/error.h"
+#include "antigrasp/train/averaged_generator.h"
+
+namespace antigrasp {
+namespace {
+
+constexpr std::int64_t kMostTensors = 10000;
+
+}  // namespace
+
+torch::Tensor SharedBatch::SumInOrder(const torch::Tensor& rows, std::int64_t parts) {
+  const torch::NoGradGuard no_grad;
+  const std::int64_t n = size(), each = (parts + n - 1) / n;
+  // Ranks with a part less send a row that nobody reads.
+  torch::Tensor padded = torch::zeros({each, rows.size(1)});
+  padded.slice(0, 0, rows.size(0)).copy_(rows);
+  const std::vector<torch::Tensor> all = group_->All(padded);
+  torch::Tensor sum;
+  for (std::int64_t part = 0; part < parts; ++part) {
+    const torch::Tensor row = all[static_cast<std::size_t>(part % n)][part / n];
+    if (part == 0) {
+      sum = row.clone();
+    } else {
+      sum.add_(row);
+    }
+  }
+  return sum;
+}
+
+OrderHeader TellOrHear(RankGroup* group, const OrderHeader& header) {
+  torch::Tensor numbers = torch::tensor(std::vector<std::int64_t>{
+      static_cast<std::int64_t>(header.order), header.a, header.b, header.c});
+  group->FromLeader(&numbers);
+  const std::int64_t* heard = numbers.data_ptr<std::int64_t>();
+  if (heard[0] < 0 || heard[0] > static_cast<std::int64_t>(Order::kEnd)) {
+    throw RuntimeFailure("rank 0 sent an order that is none");
+  }
+  return {static_cast<Order>(heard[0]), heard[1], heard[2], heard[3]};
+}
+
+NamedTensors StateFromLeader(RankGroup* group, const NamedTensors& state) {
+  std::string names;
+  for (const auto& [name, tensor] : state) names += name + "\n";
+  names = group->TextFromLeader(names);
+  if (std::count(names.begin(), names.end(), '\n') > kMostTensors) {
+    throw RuntimeFailure("rank 0 sent more tensors than a model has");
+  }
+  NamedTensors told;
+  std::size_t place = 0;
+  for (std::size_t at = 0; at < names.size(); ++place) {
+    const std::size_t end = names.find('\n', at);
+    const torch::Tensor own = group->leads() ? state[place].second : torch::Tensor();
+    told.emplace_back(names.substr(at, end - at), group->TensorFromLeader(own));
+    at = end + 1;
+  }
+  return told;
+}
+
+LatentMixture MixtureFromLeader(RankGroup* group, const LatentMixture& mixture) {
+  return {group->TensorFromLeader(mixture.weights), group->TensorFromLeader(mixture.means),
+          group->TensorFromLeader(mixture.deviations)};
+}
+
+torch::Tensor SampleTogether(RankGroup* group, ShapeModel* model, std::uint64_t seed,
+                             std::int64_t first, std::int64_t count) {
+  // Whole blocks from first on, but for the last: a part of one costs as much as all of it.
+  const std::int64_t n = group->size();
+  const std::int64_t blocks = (count + kSampleBlock - 1) / kSampleBlock;
+  const std::int64_t each = (blocks + n - 1) / n * kSampleBlock;
+  const std::int64_t begin = std::min(group->rank() * each, count);
+  const std::int64_t end = std::min(begin + each, count);
+  const torch::Tensor own = model->Sample(seed, first + begin, end - begin);
+  torch::Tensor padded = torch::zeros({each, own.size(1), own.size(2), own.size(3), own.size(4)});
+  padded.slice(0, 0, end - begin).copy_(own);
+  return torch::cat(group->All(padded)).slice(0, 0, count).clone();
+}
+
+RankedModel::RankedModel(std::unique_ptr<ShapeModel> model, RankGroup* group, bool shares_batches)
+    : model_(std::move(model)), group_(group), shares_batches_(shares_batches) {
+  AG_CHECK(group_->leads(), "rank 0 leads");
+}
+
+void RankedModel::BeginEpisode(int episode, std::int64_t iterations, bool restart) {
+  if (shares_batches_) {
+    TellState();
+    TellOrHear(group_, {Order::kBeginEpisode, episode, iterations, restart ? 1 : 0});
+  }
+  model_->BeginEpisode(episode, iterations, restart);
+  others_know_ = shares_batches_;
+}
+
+void RankedModel::BeginFixedEpisode(int episode, const LatentMixture& latent) {
+  model_->BeginFixedEpisode(episode, latent);
+  others_know_ = false;
+}
+
+void RankedModel::Step(const torch::Tensor& shapes) {
+  if (shares_batches_) {
+    TellState();
+    if (!told_.defined() || !told_.is_same(shapes)) {
+      TellOrHear(group_, {Order::kShapes});
+      group_->TensorFromLeader(shapes);
+      told_ = shapes;
+    }
+    TellOrHear(group_, {Order::kStep});
+  }
+  model_->Step(shapes);
+  others_know_ = shares_batches_;
+}
+
+torch::Tensor RankedModel::Sample(std::uint64_t seed, std::int64_t first, std::int64_t count) {
+  TellState();
+  TellOrHear(group_, {Order::kSample, static_cast<std::int64_t>(seed), first, count});
+  return SampleTogether(group_, model_.get(), seed, first, count);
+}
+
+torch::Tensor RankedModel::Latents(std::uint64_t seed, std::int64_t first,
+                                   std::int64_t count) const {
+  return model_->Latents(seed, first, count);
+}
+
+void RankedModel::Load(const NamedTensors& state, const std::string& origin) {
+  model_->Load(state, origin);
+  others_know_ = false;
+}
+
+void RankedModel::LoadNetworks(const NamedTensors& state, const std::string& origin) {
+  model_->LoadNetworks(state, origin);
+  others_know_ = false;
+}
+
+// The others take the whole state where they have not made it themselves.
+void RankedModel::TellState() {
+  if (others_know_) return;
+  TellOrHear(group_, {Order::kLoad});
+  StateFromLeader(group_, model_->State());
+  others_know_ = true;
+}
+
+}  // namespace antigrasp
