@@ -90,10 +90,13 @@ void Train(const TrainFlags& flags) {
     throw InputError("--resume with a configuration", "command line",
                      "--resume RUN alone: a run goes on with the settings it began with");
   }
-  const std::unique_ptr<Ranks> ranks = JoinRanks(flags.processes, [&] {
-    return flags.resume.empty() ? SameForAll(ConfigOf(flags.run))
-                                : std::vector<std::string>{"--resume " + flags.resume};
-  });
+  const std::unique_ptr<Ranks> ranks = JoinRanks(
+      flags.processes,
+      [&] {
+        return flags.resume.empty() ? SameForAll(ConfigOf(flags.run))
+                                    : std::vector<std::string>{"--resume " + flags.resume};
+      },
+      &ThrowIfInterrupted);
   if (ranks != nullptr && !ranks->group().leads()) return FollowRanks(&ranks->group(), &JudgeOf);
   if (ranks == nullptr) return Run(flags, {&JudgeOf, &Refined}, MakeGan);
   Leader leader(&ranks->group());

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <exception>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
@@ -59,7 +60,20 @@ c10::intrusive_ptr<c10d::TCPStore> Connect(const Launch& launch, bool serve,
           "rank 0 does not answer at " + Address(launch) +
           " (MASTER_ADDR, MASTER_PORT): does it run, and lets the network through?");
     }
+    if (options.pause) options.pause();
     if (options.say) options.say("waiting for rank 0 at " + Address(launch));
+  }
+}
+
+// What c10d throws is about sockets; whoever reads it wants to know who is missing.
+template <typename Work>
+auto ToOthers(const Work& work) {
+  try {
+    return work();
+  } catch (const c10::Error&) {
+    throw RuntimeFailure("another process of the job is gone; what was saved stays");
+  } catch (const std::runtime_error&) {
+    throw RuntimeFailure("another process of the job is gone; what was saved stays");
   }
 }
 
@@ -132,6 +146,7 @@ void GlooGroup::Meet(const JoinOptions& options) {
       said = waited;
       options.say(text);
     }
+    if (options.pause) options.pause();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
 }
@@ -189,7 +204,7 @@ std::vector<torch::Tensor> GlooGroup::All(const torch::Tensor& mine) {
   for (int r = 0; r < size_; ++r) out[0].push_back(torch::empty_like(in[0]));
   c10d::AllgatherOptions options;
   options.timeout = kLong;
-  gloo_->allgather(out, in, options)->wait();
+  ToOthers([&] { return gloo_->allgather(out, in, options)->wait(); });
   Count(static_cast<std::int64_t>(in[0].nbytes()) * (size_ - 1));
   return out[0];
 }
@@ -199,22 +214,25 @@ void GlooGroup::FromLeader(torch::Tensor* tensor) {
   c10d::BroadcastOptions options;
   options.rootRank = 0;
   options.timeout = kLong;
-  gloo_->broadcast(tensors, options)->wait();
+  ToOthers([&] { return gloo_->broadcast(tensors, options)->wait(); });
   if (leads()) Count(static_cast<std::int64_t>(tensor->nbytes()) * (size_ - 1));
 }
 
 std::int64_t GlooGroup::TakeNext(const std::string& counter, std::int64_t count) {
   Count(static_cast<std::int64_t>(counter.size()));
-  return store_->add("next/" + counter, count) - count;
+  return ToOthers([&] { return store_->add("next/" + counter, count); }) - count;
 }
 
 void GlooGroup::Put(const std::string& name, const std::string& bytes) {
   Count(static_cast<std::int64_t>(bytes.size()));
-  store_->set("put/" + name, Bytes(bytes));
+  ToOthers([&] {
+    store_->set("put/" + name, Bytes(bytes));
+    return true;
+  });
 }
 
 std::string GlooGroup::Wait(const std::string& name) {
-  const std::vector<std::uint8_t> bytes = store_->get("put/" + name);
+  const std::vector<std::uint8_t> bytes = ToOthers([&] { return store_->get("put/" + name); });
   store_->deleteKey("put/" + name);
   return {bytes.begin(), bytes.end()};
 }

@@ -32,7 +32,8 @@ Ranks::Ranks(std::unique_ptr<SpawnedRanks> spawned, std::unique_ptr<RankGroup> g
     : spawned_(std::move(spawned)), group_(std::move(group)) {}
 
 std::unique_ptr<Ranks> JoinRanks(int processes,
-                                 const std::function<std::vector<std::string>()>& same) {
+                                 const std::function<std::vector<std::string>()>& same,
+                                 const std::function<void()>& pause) {
   std::optional<Launch> launch = LaunchOfEnvironment();
   if (!launch && processes <= 1) return nullptr;
   if (!CanJoin()) {
@@ -41,6 +42,7 @@ std::unique_ptr<Ranks> JoinRanks(int processes,
   JoinOptions options;
   options.same = same();
   options.say = &Say;
+  options.pause = pause;
   std::unique_ptr<SpawnedRanks> spawned;
   if (!launch) {
     spawned = std::make_unique<SpawnedRanks>(processes);

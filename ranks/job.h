@@ -23,8 +23,10 @@ class Ranks {
 
 // Joins the other processes of the job that the environment tells of, or starts `processes` - 1 of
 // them where it tells of none; nullptr: this process is alone. `same`: what all must have
-// (JoinOptions), asked for only then. Ranks other than 0 do not hear Ctrl-C: rank 0 ends them.
+// (JoinOptions), asked for only then; `pause` is called while it waits and may throw Interrupted.
+// Ranks other than 0 do not hear Ctrl-C: rank 0 ends them.
 std::unique_ptr<Ranks> JoinRanks(int processes,
-                                 const std::function<std::vector<std::string>()>& same);
+                                 const std::function<std::vector<std::string>()>& same,
+                                 const std::function<void()>& pause);
 
 }  // namespace antigrasp

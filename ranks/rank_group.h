@@ -18,6 +18,7 @@ struct JoinOptions {
   // What has to be the same in all processes: program and settings, a line each ("version 1.2").
   std::vector<std::string> same;
   SayFn say;                                          // who waits for whom
+  std::function<void()> pause;                        // called while waiting; may throw Interrupted
   std::function<void(std::uint16_t port)> listening;  // rank 0, once it does
   double patience_seconds = 600.0;                    // for the others, at the beginning
   double lost_after_seconds = 30.0;                   // without a sign of life

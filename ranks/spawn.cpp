@@ -23,6 +23,7 @@ SpawnedRanks::SpawnedRanks(int processes) : processes_(processes) {
   setenv("MASTER_ADDR", "127.0.0.1", 1);
   setenv("MASTER_PORT", "0", 1);
   unsetenv("TORCHELASTIC_USE_AGENT_STORE");
+  setenv("GLOG_minloglevel", "3", 0);  // of the others: c10d logs every try to reach rank 0
 }
 
 void SpawnedRanks::Start(std::uint16_t port, char** arguments) {

@@ -15,7 +15,8 @@ TEST(GanOptions, EachNameSetsItsOwnField) {
        {"gan.batch=16", "gan.discriminator_steps=7", "gan.learning_rate_g=0.01",
         "gan.learning_rate_d=0.02", "gan.later_rate=0.03", "gan.beta1=0.04", "gan.beta2=0.05",
         "gan.lr_decay_fraction=0.06", "gan.symmetries=\"around_z\"", "gan.augment=\"flips\"",
-        "gan.ema=0.07", "gan.rest_below=0.08", "gan.fairing=0.09", "gan.fairing_power=0.1"}) {
+        "gan.ema=0.07", "gan.rest_below=0.08", "gan.fairing=0.09", "gan.fairing_power=0.1",
+        "gan.micro_batches=3"}) {
     table.ApplyOverride(setting);
   }
   EXPECT_EQ(options.batch, 16);
@@ -32,7 +33,8 @@ TEST(GanOptions, EachNameSetsItsOwnField) {
   EXPECT_EQ(options.rest_below, 0.08);
   EXPECT_EQ(options.fairing, 0.09);
   EXPECT_EQ(options.fairing_power, 0.1);
-  EXPECT_EQ(table.options().size(), 14U);
+  EXPECT_EQ(options.micro_batches, 3);
+  EXPECT_EQ(table.options().size(), 15U);
 }
 
 TEST(GanOptions, RefuseValuesOutOfRange) {
@@ -43,7 +45,8 @@ TEST(GanOptions, RefuseValuesOutOfRange) {
        {"gan.batch=1", "gan.discriminator_steps=0", "gan.learning_rate_g=1.01",
         "gan.learning_rate_d=-0.01", "gan.later_rate=1.01", "gan.beta1=1", "gan.beta2=1",
         "gan.lr_decay_fraction=1.01", "gan.symmetries=\"around_x\"", "gan.augment=\"all\"",
-        "gan.ema=1", "gan.rest_below=2.01", "gan.fairing=-1", "gan.fairing_power=0"}) {
+        "gan.ema=1", "gan.rest_below=2.01", "gan.fairing=-1", "gan.fairing_power=0",
+        "gan.micro_batches=-1"}) {
     EXPECT_THROW(table.ApplyOverride(setting), InputError) << setting;
   }
 }

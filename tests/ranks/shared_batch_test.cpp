@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+#include <torch/types.h>
+#include <torch/utils.h>
+
+#include <mutex>
+#include <vector>
+
+#include "antigrasp/core/error.h"
+#include "antigrasp/ranks/ranked_model.h"
+#include "antigrasp/train/gan_trainer.h"
+#include "tests/ranks/fake_group.h"
+
+namespace antigrasp {
+namespace {
+
+// Rows whose float32 sum depends on the order: 1e8, 1, -1e8, 1, 1.
+torch::Tensor Rows() {
+  return torch::tensor({1e8F, 1.0F, -1e8F, 1.0F, 1.0F}).view({5, 1}).repeat({1, 3});
+}
+
+torch::Tensor OwnRows(int rank, int size) {
+  std::vector<torch::Tensor> own;
+  for (int part = rank; part < 5; part += size) own.push_back(Rows()[part]);
+  return own.empty() ? torch::empty({0, 3}) : torch::stack(own);
+}
+
+TEST(SharedBatch, AddsTheRowsInTheirOrderForAnyNumberOfRanks) {
+  // (1e8 + 1) = 1e8 in float32, - 1e8 = 0, + 1 + 1 = 2; another order gives 3 or 1.
+  EXPECT_TRUE(WholeBatch().SumInOrder(Rows(), 5).equal(torch::full({3}, 2.0F)));
+  for (const int size : {1, 2, 3, 4, 8}) {
+    std::mutex mutex;
+    ThreadRanks(size).Run([&](RankGroup* group) {
+      const torch::Tensor sum = SharedBatch(group).SumInOrder(OwnRows(group->rank(), size), 5);
+      const std::lock_guard<std::mutex> lock(mutex);
+      EXPECT_TRUE(sum.equal(torch::full({3}, 2.0F))) << size << " ranks, rank " << group->rank();
+    });
+  }
+}
+
+ModelOptions SmallModel() {
+  ModelOptions model;
+  model.width = model.width_d = 4;
+  model.latent = 8;
+  model.pack = 2;
+  return model;
+}
+
+GanOptions InParts(int parts) {
+  GanOptions options;
+  options.batch = 8;
+  options.micro_batches = parts;
+  options.discriminator_steps = 2;
+  return options;
+}
+
+NamedTensors AfterThreeSteps(BatchShare* share, int parts) {
+  GanTrainer trainer(SmallModel(), InParts(parts), 5, torch::kCPU);
+  if (share != nullptr) trainer.ShareBatches(share);
+  trainer.BeginEpisode(0, 10, false);
+  const torch::Tensor shapes =
+      torch::linspace(-1.0, 1.0, 3 * 32 * 32 * 32).view({3, 1, 32, 32, 32}).to(torch::kHalf);
+  for (int step = 0; step < 3; ++step) trainer.Step(shapes);
+  NamedTensors state;
+  for (const auto& [name, tensor] : trainer.State()) state.emplace_back(name, tensor.clone());
+  return state;
+}
+
+void ExpectEqual(const NamedTensors& a, const NamedTensors& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].first, b[i].first);
+    EXPECT_TRUE(a[i].second.equal(b[i].second)) << a[i].first;
+  }
+}
+
+TEST(SharedBatch, TrainersOfAnyNumberOfRanksHaveTheStateOfOneAlone) {
+  const NamedTensors alone = AfterThreeSteps(nullptr, 4);
+  for (const int size : {2, 3, 8}) {
+    std::mutex mutex;
+    std::vector<NamedTensors> states;
+    ThreadRanks(size).Run([&](RankGroup* group) {
+      SharedBatch share(group);
+      NamedTensors state = AfterThreeSteps(&share, 4);
+      const std::lock_guard<std::mutex> lock(mutex);
+      states.push_back(std::move(state));
+    });
+    for (const NamedTensors& state : states) ExpectEqual(state, alone);
+  }
+}
+
+TEST(SharedBatch, PartsAreAnotherTrainingThanOnePiece) {
+  const NamedTensors two = AfterThreeSteps(nullptr, 2), four = AfterThreeSteps(nullptr, 4);
+  bool differ = false;
+  for (std::size_t i = 0; i < two.size(); ++i) differ |= !two[i].second.equal(four[i].second);
+  EXPECT_TRUE(differ);
+}
+
+TEST(FromLeader, TextStatesAndMixturesArriveAsTheyWere) {
+  const NamedTensors state = {{"a/b", torch::arange(6).view({2, 3})}, {"c", torch::tensor(2.5)}};
+  ThreadRanks(3).Run([&](RankGroup* group) {
+    EXPECT_EQ(group->TextFromLeader(group->leads() ? std::string("x\0y", 3) : ""),
+              std::string("x\0y", 3));
+    EXPECT_EQ(group->TextFromLeader(""), "");
+    ExpectEqual(StateFromLeader(group, group->leads() ? state : NamedTensors()), state);
+    const OrderHeader heard =
+        TellOrHear(group, group->leads() ? OrderHeader{Order::kSample, -1, 2, 3} : OrderHeader());
+    EXPECT_EQ(heard.order, Order::kSample);
+    EXPECT_EQ(heard.a, -1);
+    EXPECT_EQ(heard.c, 3);
+  });
+}
+
+}  // namespace
+}  // namespace antigrasp
