@@ -31,12 +31,12 @@ struct BundledObject {
 
 // All that a call can write for an object, so that an earlier call's parts go.
 ResultFiles FilesOfCall() {
-  ResultFiles files{kTable, {}, {"NAME/README.md", "NAME/NAME.stl"}};
-  for (const char* file : {"NAME/NAME.xml", "NAME/self_check.xml", "NAME/NAME.urdf"}) {
-    files.of_object.emplace_back(file);
-  }
+  ResultFiles files{kTable, {}, {"NAME/NAME.stl"}};
   ObjectBundle any;
   any.name = "NAME";
+  for (const TextFile& file : TextFiles(any, BundleTarget::kAll)) {
+    files.of_object.push_back("NAME/" + file.name);
+  }
   for (std::size_t i = 0; i < static_cast<std::size_t>(kMostParts); ++i) {
     files.of_object.push_back("NAME/" + any.PartName(i) + ".stl");
   }
@@ -102,15 +102,9 @@ void WriteFiles(const ObjectBundle& bundle, BundleTarget target,
   for (std::size_t i = 0; i < bundle.parts.size(); ++i) {
     WriteMesh(folder / (bundle.PartName(i) + ".stl"), bundle.parts[i].mesh);
   }
-  const bool all = target == BundleTarget::kAll;
-  if (all || target == BundleTarget::kMujoco) {
-    WriteFileAtomic(folder / (bundle.name + ".xml"), MjcfText(bundle));
-    WriteFileAtomic(folder / "self_check.xml", MjcfSelfCheck());
+  for (const TextFile& file : TextFiles(bundle, target)) {
+    WriteFileAtomic(folder / file.name, file.text);
   }
-  if (all || target == BundleTarget::kUrdf) {
-    WriteFileAtomic(folder / (bundle.name + ".urdf"), UrdfText(bundle));
-  }
-  WriteFileAtomic(folder / "README.md", BundleReadme(bundle, target));
 }
 
 class BundleTable {

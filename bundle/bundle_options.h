@@ -8,11 +8,16 @@
 namespace antigrasp {
 
 // What a bundle is for.
-enum class BundleTarget { kAll, kMujoco, kUrdf };
+enum class BundleTarget { kAll, kMujoco, kUrdf, kSdformat, kUsd };
+constexpr bool IsFor(BundleTarget asked, BundleTarget one) {
+  return asked == one || asked == BundleTarget::kAll;
+}
 constexpr auto ChoicesOf(BundleTarget) {
   return std::to_array<Choice<BundleTarget>>({{BundleTarget::kAll, "all"},
                                               {BundleTarget::kMujoco, "mujoco"},
-                                              {BundleTarget::kUrdf, "urdf"}});
+                                              {BundleTarget::kUrdf, "urdf"},
+                                              {BundleTarget::kSdformat, "sdformat"},
+                                              {BundleTarget::kUsd, "usd"}});
 }
 
 // How large an object is made.

@@ -1,39 +1,36 @@
-#include <cstdio>
-
 #include "antigrasp/bundle/bundle_files.h"
+#include "antigrasp/bundle/pinch_scene.h"
+#include "antigrasp/bundle/simulator_names.h"
 #include "antigrasp/bundle/xml_writer.h"
 #include "antigrasp/core/format.h"
 
 namespace antigrasp {
 namespace {
 
-constexpr double kPinch = 1.0;                       // N
-constexpr double kBox = 0.04, kBall = 0.005;         // m
-constexpr double kBoxMass = 0.03, kBallMass = 0.05;  // kg
-
-void AddPinch(const std::string& name, double y, const std::string& friction, XmlWriter* xml) {
-  const double out = 0.5 * kBox + kBall;
-  xml->Open("body", {{"name", name}, {"pos", NumbersText({0.0, y, 0.3})}});
+void AddPinch(const PinchedBox& box, XmlWriter* xml) {
+  const std::string name = box.name;
+  const double half = 0.5 * kBoxSide;
+  xml->Open("body", {{"name", name}, {"pos", NumbersText({0.0, box.y, kPinchHeight})}});
   xml->Leaf("freejoint", {});
   xml->Leaf("geom", {{"name", name},
                      {"type", "box"},
-                     {"size", NumbersText({0.5 * kBox, 0.5 * kBox, 0.5 * kBox})},
+                     {"size", NumbersText({half, half, half})},
                      {"mass", FormatDouble(kBoxMass)},
                      {"priority", "1"},
-                     {"friction", friction}});
+                     {"friction", FormatDouble(box.friction)}});
   xml->Close();
   for (const double side : {-1.0, 1.0}) {
     const std::string ball = name + (side < 0.0 ? "_left" : "_right");
-    xml->Open("body", {{"name", ball}, {"pos", NumbersText({side * out, y, 0.3})}});
-    // A soft spring a metre away from rest: 1 N, and no actuator to be set.
+    xml->Open("body",
+              {{"name", ball}, {"pos", NumbersText({side * kBallAside, box.y, kPinchHeight})}});
     xml->Leaf("joint", {{"name", ball},
                         {"type", "slide"},
                         {"axis", NumbersText({-side, 0.0, 0.0})},
-                        {"stiffness", FormatDouble(kPinch)},
-                        {"springref", "1"}});
+                        {"stiffness", FormatDouble(kSpring)},
+                        {"springref", FormatDouble(kSpringRest)}});
     xml->Leaf("geom", {{"name", ball},
                        {"type", "sphere"},
-                       {"size", FormatDouble(kBall)},
+                       {"size", FormatDouble(kBallRadius)},
                        {"mass", FormatDouble(kBallMass)}});
     xml->Close();
   }
@@ -51,7 +48,7 @@ std::string MjcfText(const ObjectBundle& bundle) {
   }
   xml.Close();
   xml.Open("worldbody");
-  xml.Open("body", {{"name", bundle.name}});
+  xml.Open("body", {{"name", LinkName(bundle.name)}});
   xml.Leaf("freejoint", {});
   const Eigen::Matrix3d& i = bundle.inertia;
   xml.Leaf("inertial",
@@ -84,8 +81,7 @@ std::string MjcfSelfCheck() {
   // Without noslip MuJoCo creeps; with it the limit is right for the elliptic cone alone.
   xml.Leaf("option", {{"cone", "elliptic"}, {"noslip_iterations", "10"}});
   xml.Open("worldbody");
-  AddPinch("falls", -0.1, "0.14", &xml);
-  AddPinch("stays", 0.1, "0.16", &xml);
+  for (const PinchedBox& box : kPinchedBoxes) AddPinch(box, &xml);
   xml.Close();
   xml.Close();
   return xml.Take();

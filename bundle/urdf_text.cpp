@@ -1,4 +1,5 @@
 #include "antigrasp/bundle/bundle_files.h"
+#include "antigrasp/bundle/simulator_names.h"
 #include "antigrasp/bundle/xml_writer.h"
 #include "antigrasp/core/format.h"
 
@@ -18,8 +19,9 @@ void AddShape(std::string_view element, const std::string& file, XmlWriter* xml)
 
 std::string UrdfText(const ObjectBundle& bundle) {
   XmlWriter xml("written by antigrasp: metres, kilograms, the object's own axes; see README.md");
-  xml.Open("robot", {{"name", bundle.name}});
-  xml.Open("link", {{"name", bundle.name}});
+  const std::string name = LinkName(bundle.name);
+  xml.Open("robot", {{"name", name}});
+  xml.Open("link", {{"name", name}});
   xml.Open("inertial");
   xml.Leaf("origin", {{"xyz", NumbersText(bundle.center)}, {"rpy", "0 0 0"}});
   xml.Leaf("mass", {{"value", FormatDouble(bundle.mass)}});

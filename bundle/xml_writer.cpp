@@ -34,8 +34,10 @@ void XmlWriter::Leaf(std::string_view element, const Attributes& attributes) {
   text_ += Start(element, attributes) + "/>\n";
 }
 
-void XmlWriter::Text(std::string_view element, std::string_view text) {
-  text_ += Start(element, {}) + ">" + MarkupEscaped(text) + "</" + std::string(element) + ">\n";
+void XmlWriter::Text(std::string_view element, std::string_view text,
+                     const Attributes& attributes) {
+  text_ +=
+      Start(element, attributes) + ">" + MarkupEscaped(text) + "</" + std::string(element) + ">\n";
 }
 
 std::string XmlWriter::Take() {

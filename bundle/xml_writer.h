@@ -22,8 +22,9 @@ class XmlWriter {
   void Open(std::string_view element, const Attributes& attributes = {});
   void Close();
   void Leaf(std::string_view element, const Attributes& attributes);
-  void Text(std::string_view element, std::string_view text);  // <element>text</element>
-  std::string Take();                                          // every element closed
+  void Text(std::string_view element, std::string_view text,
+            const Attributes& attributes = {});  // <element>text</element>
+  std::string Take();                            // every element closed
 
  private:
   std::string Start(std::string_view element, const Attributes& attributes) const;

@@ -32,6 +32,10 @@ TEST(BundleCli, WritesAFolderAnObjectWhateverItsNameAndReplacesNothingUnasked) {
   EXPECT_NE(mjcf.find("a&amp;b&#39;s"), std::string::npos) << mjcf;
   EXPECT_TRUE(fs::exists(out + "/a&b's/a&b's.urdf"));
   EXPECT_TRUE(fs::exists(out + "/a&b's/self_check.xml"));
+  const std::string usd = ReadFile(out + "/a&b's/a&b's.usda");
+  EXPECT_NE(usd.find("def Xform \"a_b_s\""), std::string::npos) << usd;
+  EXPECT_NE(ReadFile(out + "/a&b's/model.sdf").find("<uri>a&amp;b&#39;s.stl</uri>"),
+            std::string::npos);
   cli::ExpectRefused(call, "holds bundle.csv already");
   EXPECT_EQ(cli::Antigrasp(call + " --for urdf --overwrite").code, 0);
   EXPECT_FALSE(fs::exists(out + "/a&b's/self_check.xml"));

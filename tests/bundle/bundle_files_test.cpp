@@ -93,9 +93,75 @@ TEST(UrdfText, NamesTheMomentsOfInertia) {
             1);
 }
 
+TEST(SdformatText, IsThisOfAnObjectOfOnePart) {
+  ObjectBundle bundle;
+  bundle.name = "a";
+  bundle.parts.resize(1);
+  bundle.friction = 0.25;
+  bundle.mass = 2.0;
+  bundle.center = {1, 2, 3};
+  bundle.inertia << 11, 12, 13, 12, 22, 23, 13, 23, 33;
+  EXPECT_EQ(SdformatText(bundle), R"(<?xml version="1.0"?>
+<!-- written by antigrasp: metres, kilograms, the object's own axes; see README.md -->
+<sdf version="1.9">
+  <model name="a">
+    <link name="body">
+      <inertial>
+        <pose>1 2 3 0 0 0</pose>
+        <mass>2</mass>
+        <inertia>
+          <ixx>11</ixx>
+          <ixy>12</ixy>
+          <ixz>13</ixz>
+          <iyy>22</iyy>
+          <iyz>23</iyz>
+          <izz>33</izz>
+        </inertia>
+      </inertial>
+      <visual name="visual">
+        <geometry>
+          <mesh>
+            <uri>a.stl</uri>
+          </mesh>
+        </geometry>
+      </visual>
+      <collision name="part_0">
+        <geometry>
+          <mesh>
+            <uri>a_part_00.stl</uri>
+          </mesh>
+        </geometry>
+        <surface>
+          <friction>
+            <ode>
+              <mu>0.25</mu>
+              <mu2>0.25</mu2>
+            </ode>
+            <bullet>
+              <friction>0.25</friction>
+              <friction2>0.25</friction2>
+            </bullet>
+          </friction>
+        </surface>
+      </collision>
+    </link>
+  </model>
+</sdf>
+)");
+}
+
+TEST(SdformatConfig, NamesTheModelAndItsFile) {
+  ObjectBundle bundle;
+  bundle.name = "a";
+  const std::string config = SdformatConfig(bundle);
+  EXPECT_NE(config.find("<name>a</name>"), std::string::npos);
+  EXPECT_NE(config.find("<sdf version=\"1.9\">model.sdf</sdf>"), std::string::npos);
+}
+
 TEST(BundleFiles, EscapeANameThatXmlMust) {
   const ObjectBundle bundle = LBundle("a<b> & \"c\"");
-  for (const std::string& text : {MjcfText(bundle), UrdfText(bundle)}) {
+  EXPECT_EQ(shapes::WhyNotWellFormed(SdformatConfig(bundle)), "");
+  for (const std::string& text : {MjcfText(bundle), UrdfText(bundle), SdformatText(bundle)}) {
     EXPECT_EQ(shapes::WhyNotWellFormed(text), "") << text;
     EXPECT_GT(CountOf(text, "a&lt;b&gt; &amp; &quot;c&quot;_part_00.stl"), 0);
   }
@@ -113,7 +179,9 @@ TEST(BundleReadme, StatesTheErrorsOfTheParts) {
       std::string::npos)
       << readme;
   EXPECT_NE(readme.find("--mjcf=self_check.xml"), std::string::npos);
-  EXPECT_EQ(readme.find("URDF"), std::string::npos);
+  for (const char* other : {"URDF", "SDFormat", "USD"}) {
+    EXPECT_EQ(readme.find(other), std::string::npos) << other;
+  }
 }
 
 TEST(XmlWriter, ClosesElementsInTheirOrder) {

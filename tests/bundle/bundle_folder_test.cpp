@@ -43,9 +43,11 @@ TEST_F(BundleFolder, HoldsAFolderAnObjectAndATable) {
   Write({"l.obj"});
   std::vector<std::string> paths;
   for (const auto& [path, bytes] : shapes::FileContents(request_.out)) paths.push_back(path);
-  EXPECT_EQ(paths,
-            (std::vector<std::string>{"bundle.csv", "l/README.md", "l/l.stl", "l/l.urdf", "l/l.xml",
-                                      "l/l_part_00.stl", "l/l_part_01.stl", "l/self_check.xml"}));
+  EXPECT_EQ(paths, (std::vector<std::string>{"bundle.csv", "l/README.md", "l/l.stl", "l/l.urdf",
+                                             "l/l.usda", "l/l.xml", "l/l_part_00.stl",
+                                             "l/l_part_01.stl", "l/model.config", "l/model.sdf",
+                                             "l/self_check.sdf", "l/self_check.usda",
+                                             "l/self_check.xml", "l/self_check_bullet.py"}));
   const auto rows = shapes::CsvRows(folder_ / "out/bundle.csv");
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].at("status"), "ok");
@@ -55,10 +57,24 @@ TEST_F(BundleFolder, HoldsAFolderAnObjectAndATable) {
 }
 
 TEST_F(BundleFolder, HoldsOnlyWhatItIsFor) {
-  request_.target = BundleTarget::kUrdf;
-  Write({"l.obj"});
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/l/l.xml"));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/l/l.urdf"));
+  using Names = std::vector<std::string>;
+  const std::vector<std::pair<BundleTarget, Names>> files{
+      {BundleTarget::kMujoco, {"l/l.xml", "l/self_check.xml"}},
+      {BundleTarget::kUrdf, {"l/l.urdf", "l/self_check_bullet.py"}},
+      {BundleTarget::kSdformat, {"l/model.config", "l/model.sdf", "l/self_check.sdf"}},
+      {BundleTarget::kUsd, {"l/l.usda", "l/self_check.usda"}}};
+  for (const auto& [target, expected] : files) {
+    request_.target = target;
+    request_.overwrite = true;
+    Write({"l.obj"});
+    Names others;
+    for (const auto& [path, bytes] : shapes::FileContents(request_.out)) {
+      if (!path.ends_with(".stl") && !path.ends_with(".csv") && !path.ends_with(".md")) {
+        others.push_back(path);
+      }
+    }
+    EXPECT_EQ(others, expected);
+  }
 }
 
 TEST_F(BundleFolder, MeshesAreInMetresAtTheSizeAskedFor) {
