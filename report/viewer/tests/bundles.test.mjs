@@ -10,6 +10,7 @@ import { after, before, describe, it } from "node:test";
 import { pathToFileURL } from "node:url";
 import { Mesh } from "three";
 import { STLLoader } from "three/addons/loaders/STLLoader.js";
+import { USDAParser } from "three/addons/loaders/usd/USDAParser.js";
 import { USDLoader } from "three/addons/loaders/USDLoader.js";
 
 const require = createRequire(import.meta.url);
@@ -23,8 +24,8 @@ async function reader(name) {
   }
   return import(pathToFileURL(place)); // one that is there and does not load fails the test
 }
-const [mujocoPackage, linkedom, urdfLoader, tinyusdz] = await Promise.all(
-  ["@mujoco/mujoco", "linkedom", "urdf-loader", "tinyusdz/tinyusdz.js"].map(reader),
+const [mujocoPackage, jsdom, urdfLoader, tinyusdz] = await Promise.all(
+  ["@mujoco/mujoco", "jsdom", "urdf-loader", "tinyusdz/tinyusdz.js"].map(reader),
 );
 const without = (...readers) => readers.find(([, found]) => !found)?.[0].concat(" is not installed") ?? false;
 
@@ -47,7 +48,9 @@ before(() => {
   call("export", "p.h5", "--size-mm", "60", "--out", "stl");
   execFileSync("mv", ["stl/prisms-000000.stl", `${NAME}.stl`], { cwd: folder });
   call("bundle", `${NAME}.stl`, "--scale", "true", "--units", "mm", "--mass", "0.03", "--out", "out");
-  const lines = readFileSync(join(folder, "out", "bundle.csv"), "utf8").trim().split("\n");
+  const lines = readFileSync(join(folder, "out", "bundle.csv"), "utf8")
+    .trim()
+    .split("\n");
   const [names, values] = lines.map((line) => line.split(","));
   row = Object.fromEntries(names.map((name, i) => [name, values[i]]));
 });
@@ -65,8 +68,7 @@ function volume({ geometry }) {
       const j = geometry.index ? geometry.index.getX(i + k) : i + k;
       return [at.getX(j), at.getY(j), at.getZ(j)];
     });
-    sum +=
-      a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    sum += a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
   }
   return sum / 6;
 }
@@ -100,9 +102,10 @@ describe("MJCF in MuJoCo 3", { skip: without(["@mujoco/mujoco", mujocoPackage]) 
   });
 });
 
-describe("URDF in urdf-loader", { skip: without(["urdf-loader", urdfLoader], ["linkedom", linkedom]) }, () => {
+describe("URDF in urdf-loader", { skip: without(["urdf-loader", urdfLoader], ["jsdom", jsdom]) }, () => {
   it("is one link with its mass, a mesh that is seen and a collider a part", () => {
-    Object.assign(globalThis, { DOMParser: linkedom.DOMParser, Document: class {}, Element: class {} });
+    const { DOMParser, Document, Element } = new jsdom.JSDOM().window;
+    Object.assign(globalThis, { DOMParser, Document, Element });
     const loader = new urdfLoader.default();
     loader.parseCollision = true;
     const loaded = [];
@@ -137,12 +140,34 @@ describe("USDA in three.js", () => {
     assert.equal([...meshes.keys()].filter((name) => name.startsWith("part_")).length, Number(row.parts));
     for (const mesh of meshes.values()) assert.ok(volume(mesh) > 0);
   });
+
+  it("has a rigid body with the mass and the centre that were written, and friction on every part", () => {
+    const stage = new USDAParser().parseText(text(`${NAME}.usda`));
+    assert.equal(stage["#usda 1.0"].defaultPrim, '"_3_way_mug___co"');
+    const body = stage['def Xform "_3_way_mug___co"'];
+    assert.equal(body["prepend apiSchemas"], '["PhysicsRigidBodyAPI", "PhysicsMassAPI"]');
+    assert.ok(near(Number(body["float physics:mass"]), 0.03));
+    const place = body["point3f physics:centerOfMass"].slice(1, -1).split(",").map(Number);
+    center().forEach((x, axis) => assert.ok(near(place[axis], x)));
+    const parts = Object.entries(body).filter(([name]) => name.startsWith('def Mesh "part_'));
+    assert.equal(parts.length, Number(row.parts));
+    for (const [, part] of parts) {
+      assert.equal(part["uniform token physics:approximation"], '"convexHull"');
+      assert.equal(part["rel material:binding:physics"], "</_3_way_mug___co/friction>");
+    }
+    assert.equal(body['def Material "friction"']["float physics:staticFriction"], "0.5");
+  });
 });
 
 describe("USDA in tinyusdz", { skip: without(["tinyusdz", tinyusdz]) }, () => {
   const load = async (file) => {
     const wasmBinary = readFileSync(require.resolve("tinyusdz/tinyusdz.wasm"));
+    // It is built for browsers and refuses Node.js, but needs no more than a window.
+    globalThis.window = globalThis;
+    process.type = "renderer";
     const native = await tinyusdz.default({ wasmBinary });
+    delete globalThis.window;
+    delete process.type;
     const stage = new native.TinyUSDZLoaderNative();
     assert.ok(stage.loadFromBinary(new Uint8Array(readFileSync(join(made, file))), file), stage.error());
     return stage;
