@@ -13,8 +13,6 @@
 #include "antigrasp/judge/make_judge.h"
 #include "antigrasp/perturb/hold_descent.h"
 #include "antigrasp/ranks/follow.h"
-#include "antigrasp/ranks/job.h"
-#include "antigrasp/ranks/ranked_scorer.h"
 #include "antigrasp/train/run_request.h"
 
 namespace antigrasp {
@@ -90,17 +88,13 @@ void Train(const TrainFlags& flags) {
     throw InputError("--resume with a configuration", "command line",
                      "--resume RUN alone: a run goes on with the settings it began with");
   }
-  const std::unique_ptr<Ranks> ranks = JoinRanks(
-      flags.processes,
-      [&] {
-        return flags.resume.empty() ? SameForAll(ConfigOf(flags.run))
-                                    : std::vector<std::string>{"--resume " + flags.resume};
-      },
-      &ThrowIfInterrupted);
-  if (ranks != nullptr && !ranks->group().leads()) return FollowRanks(&ranks->group(), &JudgeOf);
-  if (ranks == nullptr) return Run(flags, {&JudgeOf, &Refined}, MakeGan);
-  Leader leader(&ranks->group());
-  Run(flags, {&JudgeOf, &Refined, RankedScorer(&ranks->group())}, leader.maker());
+  const auto same = [&]() -> std::vector<std::string> {
+    if (!flags.resume.empty()) return {"--resume " + flags.resume};
+    return SameForAll(ConfigOf(flags.run));
+  };
+  RunAsJob(flags.processes, same, &ThrowIfInterrupted, &JudgeOf, [&](auto& make, auto& score) {
+    Run(flags, {&JudgeOf, &Refined, score}, make);
+  });
 }
 
 }  // namespace
@@ -121,9 +115,7 @@ void AddTrainCommand(CLI::App* app) {
   flags->gripper = AddGripperFlag(command, "Options");
   command->add_option("--seed", flags->run.seed, "same as --set run.seed=");
   command->add_option("--threads", flags->run.threads, "same as --set run.threads=");
-  command
-      ->add_option("--processes", flags->processes,
-                   "processes on this machine that share the work (docs/cluster.md)")
+  command->add_option("--processes", flags->processes, "on this machine, to share the work")
       ->check(CLI::Range(1, 1024));
   command->add_option("--device", flags->run.device, "same as --set run.device=");
   command->add_option("--mode", flags->run.mode,

@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "antigrasp/core/error.h"
-#include "antigrasp/core/launch.h"
 
 namespace antigrasp {
 namespace {
@@ -56,7 +55,7 @@ void BecomeNetworks() {
       std::filesystem::read_symlink("/proc/self/exe").parent_path() / "antigrasp-networks";
   AskForTheSameKernelsEverywhere();
   // c10d logs every try to reach a rank that has not begun yet; we say who waits for whom.
-  if (!RankText().empty()) setenv("GLOG_minloglevel", "3", kKeepTheUsersOwn);
+  if (std::getenv("WORLD_SIZE")) setenv("GLOG_minloglevel", "3", kKeepTheUsersOwn);
   TellOfInstalledNetworks(program);
   execv(program.c_str(), g_arguments);
   throw RuntimeFailure(program.string() + " cannot be started (" + std::strerror(errno) +

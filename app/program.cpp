@@ -21,9 +21,7 @@ namespace {
 enum ExitCode { kOk = 0, kFailure = 1, kBadInput = 2, kInterrupted = 130 };
 
 int Fail(int code, const char* message) {
-  const std::string rank = RankText();
-  std::fprintf(stderr, "antigrasp%s: %s\n", rank.empty() ? "" : (" (" + rank + ")").c_str(),
-               message);
+  std::fprintf(stderr, "%s: %s\n", Speaker().c_str(), message);
   return code;
 }
 

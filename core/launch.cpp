@@ -122,15 +122,16 @@ int ProcessesHere() {
   }
 }
 
-std::string RankText() {
+std::string Speaker() {
+  const std::string program = "antigrasp";
   try {
     const std::optional<Launch> launch = LaunchOfEnvironment();
-    if (!launch || launch->size == 1) return "";
+    if (!launch || launch->size == 1) return program;
     std::array<char, 256> host{};
     gethostname(host.data(), host.size() - 1);
-    return "rank " + std::to_string(launch->rank) + " on " + host.data();
+    return program + " (rank " + std::to_string(launch->rank) + " on " + host.data() + ")";
   } catch (const InputError&) {
-    return "";  // whose own message says what is wrong
+    return program;  // whose own message says what is wrong
   }
 }
 

@@ -36,8 +36,8 @@ std::optional<Launch> LaunchOfEnvironment();
 // How many of the job's processes are on this machine; 1 for a process that is alone.
 int ProcessesHere();
 
-// "rank 2 on node07", for messages; empty for a process that is alone.
-std::string RankText();
+// Who says something: "antigrasp", of several processes "antigrasp (rank 2 on node07)".
+std::string Speaker();
 
 // The first host of a Slurm list: "node[03-05,9],gpu1" -> "node03".
 std::string FirstHost(const std::string& list);

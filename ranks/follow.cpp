@@ -4,6 +4,7 @@
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/version.h"
+#include "antigrasp/ranks/job.h"
 #include "antigrasp/ranks/ranked_model.h"
 #include "antigrasp/ranks/ranked_scorer.h"
 #include "antigrasp/train/gan_model.h"
@@ -103,6 +104,15 @@ void FollowRanks(RankGroup* group, const JudgeMaker& make_judge) {
   Follower follower(group, make_judge);
   while (follower.Obey()) {
   }
+}
+
+void RunAsJob(int processes, const std::function<std::vector<std::string>()>& same,
+              const std::function<void()>& pause, const JudgeMaker& make_judge, const RunFn& run) {
+  const std::unique_ptr<Ranks> ranks = JoinRanks(processes, same, pause);
+  if (ranks == nullptr) return run(MakeGan, nullptr);
+  if (!ranks->group().leads()) return FollowRanks(&ranks->group(), make_judge);
+  Leader leader(&ranks->group());
+  run(leader.maker(), RankedScorer(&ranks->group()));
 }
 
 std::vector<std::string> SameForAll(const RunConfig& config) {

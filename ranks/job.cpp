@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/launch.h"
 
 namespace antigrasp {
 namespace {
 
 void Say(const std::string& line) {
-  const std::string rank = RankText();
-  std::fprintf(stderr, "antigrasp (%s): %s\n", rank.c_str(), line.c_str());
+  std::fprintf(stderr, "%s: %s\n", Speaker().c_str(), line.c_str());
 }
 
 // The words that this program was called with.

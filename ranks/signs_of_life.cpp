@@ -20,9 +20,7 @@ constexpr std::int64_t kGoodbye = std::int64_t{1} << 40;  // a beat that is none
 std::string BeatOf(int rank) { return "beat/" + std::to_string(rank); }
 
 [[noreturn]] void End(const std::string& why) {
-  const std::string self = RankText();
-  std::fprintf(stderr, "antigrasp%s: %s; what was saved stays\n",
-               self.empty() ? "" : (" (" + self + ")").c_str(), why.c_str());
+  std::fprintf(stderr, "%s: %s; what was saved stays\n", Speaker().c_str(), why.c_str());
   std::fflush(stderr);
   std::_Exit(1);
 }
