@@ -53,14 +53,17 @@ void EvaluateHardest(const EvaluateFlags& flags, const ObjectSource& objects,
   PrintLines(found.summary);
 }
 
-void EvaluateAll(const EvaluateFlags& flags, const ObjectSource& objects, const Scoring& scoring) {
+// With --trial the grasps wait in flags->sampled, to be written when they have been executed.
+void EvaluateAll(EvaluateFlags* given, const ObjectSource& objects, const Scoring& scoring) {
+  const EvaluateFlags& flags = *given;
   std::optional<ObjectSource> originals;
   std::vector<std::int64_t> original_of;
   if (!flags.baseline.empty()) {
     originals.emplace(flags.baseline, GridUnit::kOfFiles, UnitToReadIn(scoring.metric));
     original_of = PairWithOriginals(objects, *originals);
   }
-  GraspFiles grasps(flags.output, objects);
+  if (flags.in_physics) GraspFiles(flags.output, objects).RequireLabels();
+  GraspFiles grasps(flags.in_physics ? GraspOutput{} : flags.output, objects);
   std::int64_t place = 0;
   ScoreTable table;
   const ScoredSet scores =
@@ -68,6 +71,7 @@ void EvaluateAll(const EvaluateFlags& flags, const ObjectSource& objects, const 
                    scoring, [&](const ScoredObject& scored, const ScoreRow& row) {
                      table.Add(row);
                      grasps.Add(place++, scored);
+                     if (flags.in_physics) AddGiven(scored, &given->sampled);
                    });
   const std::string pair = originals ? OtherNamesText(objects, *originals) : "";
   if (!pair.empty()) Warn(pair);
@@ -115,6 +119,9 @@ void Evaluate(EvaluateFlags flags, const TypedTrial& typed, const MetricFlags& m
   const std::string& gripper = metric_flags.gripper();
   flags.output.about.base = BaseOf(gripper.empty() ? "yumi" : gripper);
   if (!flags.grasps.empty()) return EvaluateGrasps(flags, typed, scoring.metric);
+  if (flags.in_physics && flags.output.path.empty()) {
+    throw InputError("--trial", "evaluate", "--grasps FILE for what it says, or --grasps-in");
+  }
   const std::vector<std::filesystem::path> written = {flags.out, MetricPath(flags),
                                                       flags.output.path};
   RequireApart(written);
@@ -132,7 +139,8 @@ void Evaluate(EvaluateFlags flags, const TypedTrial& typed, const MetricFlags& m
   if (flags.hardest > 0) {
     EvaluateHardest(flags, objects, scoring);
   } else {
-    EvaluateAll(flags, objects, scoring);
+    EvaluateAll(&flags, objects, scoring);
+    if (flags.in_physics) EvaluateGrasps(flags, typed, scoring.metric);
   }
 }
 
@@ -198,8 +206,8 @@ void AddEvaluateCommand(CLI::App* app) {
       "(docs/grasps.md)");
   for (const char* other : {"--baseline", "--hardest"}) given->excludes(other);
   AddChoice(command, "--trial", &flags->protocol,
-            "execute each of them in physics, by this protocol of antigrasp trial");
-  command->get_option("--trial")->needs(given);
+            "execute these, or those of --grasps, in physics, by this protocol of antigrasp trial");
+  command->get_option("--trial")->excludes("--hardest");
   AddJudgeFlags(command, flags.get());
   command->get_option("--judge")->excludes(given);
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();

@@ -112,12 +112,15 @@ void GraspFiles::Add(std::int64_t place, const ScoredObject& scored) {
   Add(place, std::move(set));
 }
 
+void GraspFiles::RequireLabels() const {
+  if (!wanted() || output_.format != GraspFormat::kCsv) return;
+  throw InputError("grasps with labels as csv", "--grasps " + output_.path,
+                   "another format; with --grasps-in --out has what is known of each in a table");
+}
+
 void GraspFiles::Add(std::int64_t place, GraspSet set) {
   if (!wanted()) return;
-  if (output_.format == GraspFormat::kCsv) {
-    throw InputError("given grasps as csv", "--grasps " + output_.path,
-                     "another format; --out has what is known of each in a table");
-  }
+  RequireLabels();
   without_way_ +=
       std::erase_if(set.grasps, [](const PosedGrasp& grasp) { return grasp.approach.isZero(0.0); });
   if (set.grasps.empty()) {

@@ -49,6 +49,8 @@ class GraspFiles {
   // and is left out; so is an object without grasps.
   void Add(std::int64_t place, const ScoredObject& scored);
   void Add(std::int64_t place, GraspSet set);
+  // InputError for a format that holds no label: call before what has one is made.
+  void RequireLabels() const;
   bool wanted() const { return !output_.path.empty(); }
   // InputError when there is no grasp to write, but for csv. What was left out, a line each.
   std::vector<std::string> Commit();

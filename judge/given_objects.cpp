@@ -179,7 +179,12 @@ GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
                        const MetricOptions& trial_metric, const PhysicsTrialOptions& trial,
                        RunObserver* observer) {
   const ObjectSource objects(request.inputs, GridUnit::kOfFiles, UnitToReadIn(metric));
-  GraspsRead read = ReadGraspFiles(request.grasps, request.output.about.base, metric);
+  const bool sampled = request.grasps.empty();
+  if (sampled && request.sampled.empty()) {
+    throw InputError("no grasp to execute", request.inputs.front(), "objects that can be grasped");
+  }
+  GraspsRead read = sampled ? GraspsRead{request.sampled, false}
+                            : ReadGraspFiles(request.grasps, request.output.about.base, metric);
   const bool of_mesh_files = read.of_mesh_files;
   const ByObject by = Sort(std::move(read), objects, request.grasps);
   GraspFiles grasp_files(request.output, objects);
@@ -189,7 +194,7 @@ GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
   std::string first;         // object that is not usable, and why
   int at_scale_of_file = 0;  // objects
   std::optional<AtomicFile> file;
-  if (!request.out.empty()) file.emplace(request.out);
+  if (!request.out.empty() && !sampled) file.emplace(request.out);
   // Objects side by side where there are many, else the executions of one.
   const int threads = request.threads > 0 ? request.threads : HardwareThreads();
   const bool many = objects.size() >= 2 * threads;
@@ -236,8 +241,8 @@ GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
         }
         if (file) {
           file->Append(table.TakeText());
-        } else {
-          report.table += table.TakeText();
+        } else if (const std::string rows = table.TakeText(); !sampled) {
+          report.table += rows;
         }
       },
       observer->Phase("scoring grasps"));
@@ -258,13 +263,32 @@ GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
         "every grasp is beside its object: is the table in the unit and frame of the mesh?");
   }
   for (std::string& text : grasp_files.Commit()) report.warnings.push_back(std::move(text));
-  if (!file) return report;
-  file->Commit();
-  WriteFileAtomic(request.out + ".metric.toml", MetricToml(metric, request.seed));
-  if (request.in_physics) {
+  if (file) {
+    file->Commit();
+    WriteFileAtomic(request.out + ".metric.toml", MetricToml(metric, request.seed));
+  }
+  if (request.in_physics && !request.out.empty()) {
     WriteFileAtomic(request.out + ".trial.toml", TrialToml(trial_metric, trial));
   }
   return report;
+}
+
+void AddGiven(const ScoredObject& scored, std::vector<GivenGrasp>* grasps) {
+  for (std::size_t g = 0; g < scored.score.grasps.size(); ++g) {
+    const auto& [grasp, quality, draws, candidate] = scored.score.grasps[g];
+    GivenGrasp given;
+    given.object = scored.name;
+    given.id = std::to_string(g);
+    given.frame = GraspFrame::kMetres;
+    given.metres_per_unit = scored.score.scale;
+    given.says_scale = given.of_a_candidate = true;
+    given.center = grasp.center;
+    given.axis = grasp.axis;
+    given.approach = grasp.approach;
+    given.width = grasp.width;
+    given.candidate = candidate;
+    grasps->push_back(std::move(given));
+  }
 }
 
 }  // namespace antigrasp

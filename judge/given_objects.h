@@ -16,12 +16,17 @@ struct GivenRequest {
   std::vector<std::string> inputs;  // objects
   std::string grasps;               // a table (quality/given_grasps.h), or grasp_io/grasp_files.h
   std::string out;                  // table to write, OUT.metric.toml beside it; may be empty
-  bool in_physics = false;          // each is executed, too
+  std::vector<GivenGrasp>
+      sampled;              // in place of `grasps`, by AddGiven: OUT.trial.toml alone is written
+  bool in_physics = false;  // each is executed, too
   std::uint64_t seed = 1;
   int threads = 0;
   GraspOutput
       output;  // of the grasps with their labels; `about.base` is of the gripper that scores
 };
+
+// Grasps of an object as they were sampled and scored, to be executed: they score the same again.
+void AddGiven(const ScoredObject& scored, std::vector<GivenGrasp>* grasps);
 
 struct GivenReport {
   std::string table;  // where nothing is written: what would have been

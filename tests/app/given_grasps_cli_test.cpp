@@ -91,7 +91,10 @@ TEST(EvaluateCli, RefusesGivenGraspsAndJudgesThatCannotBeInOneLine) {
   cli::ExpectRefused(given + "none.csv", "no such file");
   cli::ExpectRefused(given + "g.csv --out " + dir + "g.csv", "written over a file that is read");
   cli::ExpectRefused(given + "g.csv --judge epsilon", "--judge");
-  cli::ExpectRefused(cube + "--trial six-ways", "--trial requires --grasps-in");
+  cli::ExpectRefused(cube + "--trial six-ways", "--trial (evaluate): expected --grasps FILE");
+  cli::ExpectRefused(cube + "--trial six-ways --grasps " + dir + "l.csv",
+                     "grasps with labels as csv");
+  cli::ExpectRefused(cube + "--trial six-ways --hardest 1", "--hardest");
   cli::ExpectRefused(cube + "--tip pad", "--trial PROTOCOL beside them");
   cli::ExpectRefused(given + "g.csv --trial paper --series 3", "--series 3");
   cli::ExpectRefused(given + "g.csv --trial shake", "--trial");
