@@ -5,9 +5,7 @@
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
 #include "antigrasp/app/trial_flags.h"
-#include "antigrasp/core/atomic_file.h"
-#include "antigrasp/datasets/import_report.h"
-#include "antigrasp/datasets/objects.h"
+#include "antigrasp/datasets/import_request.h"
 #include "antigrasp/datasets/prior_set.h"
 #include "antigrasp/judge/make_judge.h"
 #include "antigrasp/judge/pair_dataset.h"
@@ -21,31 +19,10 @@ struct MakeFlags {
   std::string out;
 };
 
-struct ImportFlags {
-  std::vector<std::string> inputs;
-  std::string out;
-  std::string report;
-  ImportOptions options;
-};
-
 void Make(const MakeFlags& flags) {
   ConsoleObserver console;
   WritePriorSet(flags.out, flags.options, console.Phase("making " + flags.options.kind));
   std::printf("%s: %s\n", flags.out.c_str(), PriorSetText(flags.options).c_str());
-}
-
-void Import(const ImportFlags& flags) {
-  for (const std::string& out : {flags.out, flags.report}) {
-    if (!out.empty()) const AtomicFile probe(out);  // refuses an unwritable target before the work
-  }
-  RequireApart({flags.out, flags.report});
-  if (!flags.report.empty()) ObjectSource(flags.inputs).RequireNotRead({flags.report});
-  ConsoleObserver console;
-  const std::vector<std::filesystem::path> inputs(flags.inputs.begin(), flags.inputs.end());
-  const std::vector<ImportedMesh> reports =
-      ImportMeshes(inputs, flags.out, flags.options, console.Phase("importing"));
-  if (!flags.report.empty()) WriteFileAtomic(flags.report, ImportCsv(reports));
-  std::fputs(ImportText(reports, flags.out, flags.options.resolution).c_str(), stdout);
 }
 
 struct PairFlags : PairRequest {
@@ -119,22 +96,32 @@ void AddDatasetCommand(CLI::App* app) {
       ->check(CLI::Range(0, 2))
       ->capture_default_str();
   AddThreads(make, &make_flags->options.threads);
-  make->add_option("--out", make_flags->out, "SDF file to write (HDF5)")->required();
+  make->add_option("--out", make_flags->out, ShapeFileKinds())->required();
   make->callback([make_flags] { Make(*make_flags); });
 
-  const auto import_flags = std::make_shared<ImportFlags>();
+  const auto request = std::make_shared<ImportRequest>();
   CLI::App* imported = dataset->add_subcommand(
-      "import", "Turn meshes (" + Alternatives(ReadableExtensions(), ".") + ") into SDF grids");
-  imported->add_option("MESH", import_flags->inputs, "mesh files or folders")->required();
-  imported->add_option("--out", import_flags->out, "SDF file to write (HDF5)")->required();
-  imported->add_option("--report", import_flags->report, "CSV with one row per mesh");
-  AddChoice(imported, "--scale", &import_flags->options.scale,
+      "import", "Turn meshes (" + Alternatives(ReadableExtensions(), ".") +
+                    ") into SDF grids, or take grids of other programs (.npy, .npz, .vti)");
+  imported->add_option("INPUT", request->inputs, "meshes or grids, files or folders")->required();
+  imported->add_option("--out", request->out, ShapeFileKinds())->required();
+  imported->add_option("--report", request->report, "CSV with one row per mesh or grid");
+  AddChoice(imported, "--scale", &request->options.scale,
             "set: one factor for all, which leaves out what is far larger than the others; each: "
             "every object as large as the grid allows");
-  AddUnits(imported, &import_flags->options.units, ", for sets of one factor");
-  AddResolution(imported, &import_flags->options.resolution);
-  AddThreads(imported, &import_flags->options.threads);
-  imported->callback([import_flags] { Import(*import_flags); });
+  AddUnits(imported, &request->options.units, ", for sets of one factor");
+  AddResolution(imported, &request->options.resolution);
+  AddChoice(imported, "--sign", &request->meaning.sign,
+            "of grids whose file does not say it (positive inside, if it is not told here)");
+  imported
+      ->add_option("--spacing", request->meaning.spacing,
+                   "of their nodes, in the unit of their values; default: the file's, else 1/n")
+      ->check(NumberIn(1e-12, 1e12));
+  AddThreads(imported, &request->options.threads);
+  imported->callback([request] {
+    ConsoleObserver console;
+    std::fputs(RunImport(*request, console.Phase("importing")).c_str(), stdout);
+  });
   AddPairCommand(dataset);
 }
 

@@ -20,9 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void DescribeShapeSet(const fs::path& path) {
-  const ShapeSetInfo info = ReadShapeSetInfo(path);
-  std::printf("%s: antigrasp SDF file, version %d\n%s", path.c_str(), info.version,
-              ShapeSetText(info).c_str());
+  std::printf("%s: %s", path.c_str(), ShapeFileText(ReadShapeSetInfo(path)).c_str());
 }
 
 void DescribeMesh(const fs::path& path) {
@@ -57,7 +55,7 @@ void DescribeScores(const InfoFlags& flags) {
 
 void Describe(const InfoFlags& flags) {
   const fs::path path(flags.path);
-  if (IsHdf5(path)) {
+  if (IsHdf5(path) || IsShapeSet(path)) {
     flags.RefuseTable();
     DescribeShapeSet(path);
   } else if (fs::is_regular_file(path) && IsMeshFile(path)) {

@@ -6,6 +6,7 @@
 #include "antigrasp/app/flags.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/remesh_folder.h"
+#include "antigrasp/datasets/shape_format.h"
 #include "antigrasp/mesh/mesh_format.h"
 
 namespace antigrasp {
@@ -27,12 +28,14 @@ void AddRemeshCommand(CLI::App* app) {
   const auto flags = std::make_shared<RemeshRequest>();
   CLI::App* command =
       app->add_subcommand("remesh", "Turn SDF grids into meshes, with a watertightness check");
-  command->add_option("SDF", flags->input, "SDF file (HDF5)")->required();
+  command->add_option("SDF", flags->input, ShapeFileKinds())->required();
   command->add_option("--out", flags->out, "folder for the meshes and remesh.csv")->required();
   AddOverwrite(command, &flags->overwrite);
   command->add_option("--format", flags->format, Alternatives(WritableExtensions()))
       ->check(CLI::IsMember(WritableExtensions()))
       ->capture_default_str();
+  command->add_option("--grids", flags->grids,
+                      "exact distances to the meshes: " + ShapeFileKinds());
   AddThreads(command, &flags->threads);
   command->callback([flags] { Remesh(*flags); });
 }

@@ -6,6 +6,7 @@
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
 #include "antigrasp/app/network_commands.h"
+#include "antigrasp/datasets/shape_format.h"
 #include "antigrasp/train/sample_set.h"
 
 namespace antigrasp {
@@ -33,7 +34,7 @@ void AddSampleCommand(CLI::App* app) {
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_option("--seed", flags->seed, "seed of the latent vectors")->capture_default_str();
-  command->add_option("--out", flags->out, "SDF file to write (HDF5)")->required();
+  command->add_option("--out", flags->out, ShapeFileKinds())->required();
   command
       ->add_option("--fairing", flags->fairing,
                    "few bends in place of many, flat faces and creases: how much, e.g. 0.5 (2 for "

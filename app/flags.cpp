@@ -161,7 +161,7 @@ void WarnOfLengths(const MetricOptions& metric, const TypedOption& typed) {
 void AddUnits(CLI::App* command, LengthUnit* units, const std::string& help) {
   AddChoice(command, "--units", units,
             "what the coordinates are in: " + Alternatives(ChoiceNames<LengthUnit>()) + help +
-                "; 3MF and GLB say it themselves");
+                "; 3MF, GLB and DAE say it themselves");
 }
 
 }  // namespace antigrasp

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
-#include <set>
-#include <system_error>
 #include <utility>
 
 #include "antigrasp/core/check.h"
@@ -13,8 +11,7 @@
 #include "antigrasp/core/ordered_stream.h"
 #include "antigrasp/core/spool.h"
 #include "antigrasp/core/statistics.h"
-#include "antigrasp/datasets/mesh_folder.h"
-#include "antigrasp/datasets/object_names.h"
+#include "antigrasp/datasets/import_sources.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/mesh_format.h"
@@ -27,63 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of text alone, as there may be very many: a path keeps its parts beside it.
-struct Source {
-  std::string path;
-  ObjectOrigin origin;  // named from the folder it was found in
-};
-
 // One file on its way through the import.
 struct Item {
   ImportedMesh report;
   bool usable = false;
   double extent = 0.0;  // longest side of the bounding box, in the unit of the file
 };
-
-// Every file once, sorted by path, so that the set depends neither on the order in which the file
-// system lists it nor on that of the arguments.
-std::vector<Source> FindSources(const std::vector<fs::path>& inputs) {
-  std::vector<Source> sources;
-  for (const fs::path& input : inputs) {
-    std::error_code ignored;
-    const fs::file_status status = fs::status(input, ignored);
-    if (!fs::exists(status)) {
-      throw InputError("no such file or folder", input.string(), "mesh files or folders of them");
-    }
-    if (fs::is_directory(status)) {
-      for (const fs::path& file : MeshFilesIn(input)) {
-        sources.push_back(
-            {file.string(), {file.lexically_relative(input).generic_string(), input.string()}});
-      }
-    } else {
-      sources.push_back({input.string(),
-                         {input.filename().string(), fs::absolute(input).parent_path().string()}});
-    }
-  }
-  std::stable_sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) {
-    return fs::path(a.path) < fs::path(b.path);  // part by part
-  });
-  std::set<std::string> seen;
-  std::erase_if(sources, [&](const Source& source) {
-    std::error_code error;
-    const fs::path real = fs::canonical(source.path, error);
-    return !seen.insert(error ? source.path : real.string()).second;
-  });
-  return sources;
-}
-
-// What to call them, and InputError when one of them would be written over.
-std::vector<std::string> NamesOf(const std::vector<Source>& sources, const fs::path& out) {
-  std::vector<ObjectOrigin> origins;
-  for (const Source& source : sources) {
-    std::error_code ignored;
-    if (fs::equivalent(source.path, out, ignored)) {
-      throw InputError("would be written over a mesh to import", out.string(), "another --out");
-    }
-    origins.push_back(source.origin);
-  }
-  return DistinctNames(origins);
-}
 
 std::string Sentence(const std::vector<std::string>& parts) {
   std::string text;
@@ -98,13 +44,15 @@ void Refuse(const std::string& why, Item* item) {
 }
 
 // The mesh is empty unless it is usable.
-std::pair<Item, TriangleMesh> ReadItem(const fs::path& path, LengthUnit units) {
+std::pair<Item, TriangleMesh> ReadItem(const FoundMesh& source, LengthUnit units) {
   Item item;
-  item.report.path = path.string();
+  item.report.path = source.path;
   try {
-    MeshFile file = ReadMeshFile(path);
+    MeshFile file = ReadMeshFile(source.path);
     std::vector<std::string> changes = file.notes;
-    RepairResult repaired = Repair(InUnit(std::move(file), units));
+    TriangleMesh read = InUnit(std::move(file), units);
+    if (source.scale != 1.0) read = Transformed(read, source.scale, Eigen::Vector3d::Zero());
+    RepairResult repaired = Repair(read);
     changes.insert(changes.end(), repaired.actions.begin(), repaired.actions.end());
     if (repaired.accepted()) {
       item.usable = true;
@@ -208,14 +156,12 @@ std::string Joined(const std::vector<fs::path>& inputs) {
 }
 
 // Every file read and repaired; usable meshes wait in the spool.
-std::vector<Item> ReadAll(const std::vector<Source>& sources, const ImportOptions& options,
+std::vector<Item> ReadAll(const std::vector<FoundMesh>& sources, const ImportOptions& options,
                           MeshSpool* spool, const ProgressFn& progress) {
   std::vector<Item> items(sources.size());
   StreamInOrder(
       std::ssize(sources), options.threads,
-      [&](std::int64_t i) {
-        return ReadItem(sources[static_cast<std::size_t>(i)].path, options.units);
-      },
+      [&](std::int64_t i) { return ReadItem(sources[static_cast<std::size_t>(i)], options.units); },
       [&](std::int64_t i, std::pair<Item, TriangleMesh> read) {
         const auto slot = static_cast<std::size_t>(i);
         items[slot] = std::move(read.first);
@@ -265,14 +211,17 @@ void WriteGrids(const Spool& grids, const std::vector<Item>& items,
 }  // namespace
 
 std::vector<ImportedMesh> ImportMeshes(const std::vector<fs::path>& inputs, const fs::path& out,
-                                       const ImportOptions& options, const ProgressFn& progress) {
+                                       const ImportOptions& options, const ProgressFn& progress,
+                                       std::string* layouts) {
   AG_CHECK(options.resolution > 2.0 * kFreeCells, "a grid larger than its border");
-  std::vector<Source> sources = FindSources(inputs);
+  ImportSources found = FindImportSources(inputs);
+  if (layouts != nullptr) *layouts = std::move(found.layouts);
+  std::vector<FoundMesh>& sources = found.meshes;
   const std::string where = Joined(inputs);
   if (sources.empty()) {
     throw InputError("no mesh file", where, Alternatives(ReadableExtensions(), "*."));
   }
-  const std::vector<std::string> names = NamesOf(sources, out);
+  const std::vector<std::string> names = ImportNames(sources, out);
   RequireShapeSetName(out);
 
   // Reading and gridding count as one step each.
@@ -302,6 +251,7 @@ std::vector<ImportedMesh> ImportMeshes(const std::vector<fs::path>& inputs, cons
   WriteGrids(grids, items, names, options.resolution, &writer);
   std::vector<ImportedMesh> reports;
   for (Item& item : items) reports.push_back(std::move(item.report));
+  for (const auto& [path, why] : found.skipped) reports.push_back({path, "skipped", why, 0.0});
   return reports;
 }
 

@@ -32,8 +32,8 @@ inline constexpr double kLargestByMedian = 5.0;
 
 struct ImportedMesh {
   std::string path;
-  std::string status;  // "accepted", "repaired", "refused"
-  std::string detail;  // how it was repaired or why it was refused
+  std::string status;  // "accepted", "repaired", "refused", "skipped"
+  std::string detail;  // how it was repaired or why it was refused or skipped
   double nodes = 0.0;  // length of its longest side on the grid, in distances of nodes; 0: unknown
 };
 
@@ -41,11 +41,13 @@ struct ImportedMesh {
 // (DistinctNames). Every mesh is centred, and scaled so that bounding boxes fit the unit cube
 // inside the border. A bad mesh and one of another size than the set are reported, not fatal;
 // InputError for a missing path, for no mesh file at all and for no usable mesh. The reports of
-// every file, in path order. Meshes and grids wait on disk beside `out`: memory does not grow with
-// their number.
+// every file, in path order, then of those that were skipped: of a folder in the layout of a known
+// set one mesh an object is taken (mesh_layout.h), and `layouts` says of which, a line a folder.
+// Meshes and grids wait on disk beside `out`: memory does not grow with their number.
 std::vector<ImportedMesh> ImportMeshes(const std::vector<std::filesystem::path>& inputs,
                                        const std::filesystem::path& out,
                                        const ImportOptions& options,
-                                       const ProgressFn& progress = nullptr);
+                                       const ProgressFn& progress = nullptr,
+                                       std::string* layouts = nullptr);
 
 }  // namespace antigrasp

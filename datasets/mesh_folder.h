@@ -9,4 +9,7 @@ namespace antigrasp {
 // are passed over; InputError when the folder itself cannot be searched.
 std::vector<std::filesystem::path> MeshFilesIn(const std::filesystem::path& folder);
 
+// The same for files of grids that other programs write: .npy, .npz, .vti.
+std::vector<std::filesystem::path> GridFilesIn(const std::filesystem::path& folder);
+
 }  // namespace antigrasp

@@ -11,6 +11,7 @@ struct RemeshRequest {
   std::string input;  // an SDF file
   std::string out;
   std::string format = "obj";
+  std::string grids;  // file for the exact distances to these meshes (shape_set.h); empty: none
   bool overwrite = false;
   int threads = 0;
 };

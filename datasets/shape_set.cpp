@@ -1,166 +1,78 @@
 #include "antigrasp/datasets/shape_set.h"
 
-#include <cmath>
 #include <cstdio>
+#include <utility>
 
-#include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/error.h"
-#include "antigrasp/core/file_kind.h"
-#include "antigrasp/datasets/hdf5_damage.h"
+#include "antigrasp/datasets/grid_files.h"
 #include "antigrasp/datasets/hdf5_file.h"
 #include "antigrasp/mesh/mesh_file.h"
 
 namespace antigrasp {
 namespace {
 
-constexpr std::uint64_t kVersion = 2;
-constexpr std::uint64_t kMostNodes = 512;  // along one side
-constexpr std::uint64_t kMostGrids = 10'000'000;
-constexpr const char* kFormat = "antigrasp.sdf";
-constexpr const char* kWholeFile =
-    "an antigrasp SDF file (HDF5 with attribute format = \"antigrasp.sdf\")";
+std::unique_ptr<GridSink> SinkFor(const std::filesystem::path& path) {
+  switch (ShapeFormatByName(path)) {
+    case ShapeFormat::kHdf5:
+      return MakeHdf5Sink(path);
+    case ShapeFormat::kNpy:
+      return MakeNpySink(path);
+    case ShapeFormat::kNpz:
+      return MakeNpzSink(path);
+    case ShapeFormat::kVti:
+      return MakeVtiSink(path);
+  }
+  AG_CHECK(false, "unknown format of grids");
+}
 
-// Every way in which a file can be wrong, as one InputError.
-class Reader {
- public:
-  explicit Reader(const std::filesystem::path& path) : path_(path) {
-    RequireFile(path, kWholeFile);
-    file_ = Hdf5File::Open(path);
-    if (!file_) {
-      RefuseOtherKind(path, FileKind::kHdf5, "an SDF file", kWholeFile);
-      Fail(IsTruncatedHdf5(path) ? "truncated HDF5 file"
-           : IsHdf5(path)        ? "damaged HDF5 file"
-                                 : "not an HDF5 file",
-           kWholeFile);
+std::unique_ptr<GridSource> OpenGrids(const std::filesystem::path& path,
+                                      const GridMeaning& meaning) {
+  switch (ShapeFormatOf(path)) {
+    case ShapeFormat::kHdf5: {
+      auto grids = OpenHdf5Grids(path);
+      RequireNothingMeant(meaning, path.string());
+      return grids;
     }
-    const auto format = file_->StringAttribute("format");
-    if (!format) Fail("no attribute format", kWholeFile);
-    if (*format != kFormat) Fail("format = \"" + *format + "\"", kWholeFile);
-    const std::uint64_t version = Number("version");
-    if (version < 1 || version > kVersion) {
-      Fail("version = " + std::to_string(version), "version 1 to " + std::to_string(kVersion));
-    }
+    case ShapeFormat::kNpy:
+      return MeantGrids(ReadNpyGrids(path), meaning, path);
+    case ShapeFormat::kNpz:
+      return MeantGrids(ReadNpzGrids(path), meaning, path);
+    case ShapeFormat::kVti:
+      return MeantGrids(ReadVtiGrids(path), meaning, path);
   }
+  AG_CHECK(false, "unknown format of grids");
+}
 
-  ShapeSetInfo Info() const {
-    ShapeSetInfo info;
-    info.version = static_cast<int>(Number("version"));
-    info.kind = Text("kind");
-    info.provenance = Text("provenance");
-    info.seed = Number("seed");
-    info.spacing = Real("spacing");
-    info.truncation = Real("truncation");
-    if (!(std::isfinite(info.spacing) && info.spacing > 0.0)) {
-      Fail("spacing is not a length", "attribute spacing > 0");
-    }
-    if (!(std::isfinite(info.truncation) && info.truncation >= 0.0)) {
-      Fail("truncation is not a length", "attribute truncation >= 0");
-    }
-    // Version 1 had all attributes on the root group.
-    const std::string sign = Text("sign", info.version == 1 ? "/" : "/sdf");
-    if (sign != "positive inside") {
-      Fail("sign = \"" + sign + "\"", "sign = \"positive inside\"");
-    }
-    info.side = file_->DoubleAttribute("side", "/sdf").value_or(0.0);
-    if (!(std::isfinite(info.side) && info.side >= 0.0)) {
-      Fail("side is not a length", "attribute side of /sdf >= 0");
-    }
-    const std::vector<std::uint64_t> extents = file_->Extents("/sdf");
-    const bool cubes = extents.size() == 4 && extents[1] == extents[2] && extents[2] == extents[3];
-    if (!cubes || extents[1] < 1 || extents[1] > kMostNodes || !file_->HoldsFloats("/sdf")) {
-      Fail("no usable dataset /sdf",
-           "dataset /sdf of float and shape [N, n, n, n], n in 1 to " + std::to_string(kMostNodes));
-    }
-    // Deflate shrinks at most 1032-fold: what claims more than that was never written.
-    const std::uint64_t grid_bytes = extents[1] * extents[1] * extents[1] * sizeof(float);
-    if (extents[0] > kMostGrids ||
-        extents[0] > 1100 * file_->StoredBytes("/sdf") / grid_bytes + 1 ||
-        (extents[0] > 0 && file_->StoredBytes("/sdf") == 0)) {
-      Fail("dataset /sdf is incomplete", "every grid written");
-    }
-    info.count = static_cast<int>(extents[0]);
-    info.n = static_cast<int>(extents[1]);
-    return info;
+std::string KindOfFile(const ShapeSetInfo& info) {
+  switch (info.format) {
+    case ShapeFormat::kHdf5:
+      return "antigrasp SDF file, version " + std::to_string(info.version);
+    case ShapeFormat::kNpy:
+      return "SDF grids as NumPy's array (.npy)";
+    case ShapeFormat::kNpz:
+      return "SDF grids as NumPy's archive (.npz)";
+    case ShapeFormat::kVti:
+      return "SDF grids as VTK's image data (.vti)";
   }
-
-  Eigen::Vector3d Origin() const {
-    const auto origin = file_->DoublesAttribute("origin");
-    const Eigen::Vector3d value = origin && origin->size() == 3 ? Eigen::Vector3d(origin->data())
-                                                                : Eigen::Vector3d(NAN, 0, 0);
-    if (!value.allFinite()) Fail("no usable attribute origin", "attribute origin, 3 numbers");
-    return value;
-  }
-
-  std::vector<std::string> Names(int count) const {
-    const std::vector<std::uint64_t> extents = file_->Extents("/names");
-    if (extents == std::vector<std::uint64_t>{static_cast<std::uint64_t>(count)}) {
-      if (auto names = file_->ReadStrings("/names")) return *std::move(names);
-    }
-    Fail("no usable dataset /names", "dataset /names of " + std::to_string(count) + " strings");
-  }
-
-  SdfGrid Grid(int i, const ShapeSetInfo& info, const Eigen::Vector3d& origin) const {
-    const auto n = static_cast<std::size_t>(info.n);
-    SdfGrid grid{info.n, info.spacing, origin, std::vector<float>(n * n * n)};
-    if (!file_->ReadFloats("/sdf", static_cast<std::uint64_t>(i), grid.values.data())) {
-      Fail("grid " + std::to_string(i) + " of /sdf cannot be read", "an undamaged file");
-    }
-    return grid;
-  }
-
- private:
-  [[noreturn]] void Fail(const std::string& what, const std::string& expected) const {
-    throw InputError(what, path_.string(), expected);
-  }
-  std::uint64_t Number(const std::string& name) const {
-    if (const auto value = file_->UintAttribute(name)) return *value;
-    Fail("no usable attribute " + name, "attribute " + name + ", a whole number");
-  }
-  double Real(const std::string& name) const {
-    if (const auto value = file_->DoubleAttribute(name)) return *value;
-    Fail("no usable attribute " + name, "attribute " + name + ", a number");
-  }
-  std::string Text(const std::string& name, const std::string& object = "/") const {
-    if (auto value = file_->StringAttribute(name, object)) return *std::move(value);
-    const std::string where = object == "/" ? "" : " of " + object;
-    Fail("no usable attribute " + name + where, "attribute " + name + where + ", a string");
-  }
-
-  std::filesystem::path path_;
-  std::unique_ptr<Hdf5File> file_;
-};
+  AG_CHECK(false, "unknown format of grids");
+}
 
 }  // namespace
 
 struct ShapeSetWriter::Impl {
   Impl(const std::filesystem::path& path, ShapeSet set, std::size_t grids)
-      : target(path), about(std::move(set)), count(grids) {}
+      : sink(SinkFor(path)), about(std::move(set)), count(grids) {}
 
-  AtomicFile target;
+  std::unique_ptr<GridSink> sink;
   ShapeSet about;  // its names grow
   std::size_t count;
   SdfGrid first{};  // without its values
-  std::unique_ptr<Hdf5File> file;
 
   // What all grids share.
   void Begin(const SdfGrid& grid) {
     first = {grid.n, grid.spacing, grid.origin, {}};
-    const auto n = static_cast<std::uint64_t>(grid.n);
-    file = Hdf5File::Create(target.temp_path());
-    file->WriteAttribute("format", std::string(kFormat));
-    file->WriteAttribute("version", kVersion);
-    file->WriteAttribute("kind", about.kind);
-    file->WriteAttribute("seed", about.seed);
-    file->WriteAttribute("spacing", grid.spacing);
-    file->WriteAttribute("origin",
-                         std::vector<double>{grid.origin.x(), grid.origin.y(), grid.origin.z()});
-    file->WriteAttribute("truncation", about.truncation);
-    file->WriteAttribute("provenance", about.provenance);
-    file->CreateFloats("/sdf", count, {n, n, n});
-    file->WriteAttribute("sign", std::string("positive inside"), "/sdf");
-    file->WriteAttribute("unit", std::string("side of the unit cube"), "/sdf");
-    if (about.side > 0.0) file->WriteAttribute("side", about.side, "/sdf");
+    sink->Begin(about, count, first);
   }
 };
 
@@ -187,16 +99,14 @@ void ShapeSetWriter::Add(std::string name, const SdfGrid& grid) {
   AG_CHECK(grid.n == first.n && grid.spacing == first.spacing && grid.origin == first.origin,
            "the grids of a shape set have one size and place");
   AG_CHECK(grid.values.size() == n * n * n, "grid size");
-  impl_->file->AppendFloats(grid.values.data());
+  impl_->sink->Add(grid.values);
   names.push_back(std::move(name));
 }
 
 void ShapeSetWriter::Commit() {
   AG_CHECK(impl_->about.names.size() == impl_->count, "as many grids as were announced");
   if (impl_->count == 0) impl_->Begin(SdfGrid{});
-  impl_->file->WriteStrings("/names", impl_->about.names);
-  impl_->file->Close();
-  impl_->target.Commit();
+  impl_->sink->Commit(impl_->about.names);
 }
 
 void WriteShapeSet(const std::filesystem::path& path, const ShapeSet& set) {
@@ -209,23 +119,16 @@ void WriteShapeSet(const std::filesystem::path& path, const ShapeSet& set) {
 }
 
 struct ShapeSetReader::Impl {
-  explicit Impl(const std::filesystem::path& path) : file(path) {}
-  Reader file;
-  ShapeSetInfo info = file.Info();
-  Eigen::Vector3d origin = file.Origin();
+  std::unique_ptr<GridSource> grids;
 };
 
-ShapeSetReader::ShapeSetReader(const std::filesystem::path& path)
-    : impl_(std::make_unique<Impl>(path)) {}
+ShapeSetReader::ShapeSetReader(const std::filesystem::path& path, const GridMeaning& meaning)
+    : impl_(std::make_unique<Impl>(OpenGrids(path, meaning))) {}
 ShapeSetReader::~ShapeSetReader() = default;
 
-const ShapeSetInfo& ShapeSetReader::info() const { return impl_->info; }
-std::vector<std::string> ShapeSetReader::Names() const {
-  return impl_->file.Names(impl_->info.count);
-}
-SdfGrid ShapeSetReader::Grid(int i) const {
-  return impl_->file.Grid(i, impl_->info, impl_->origin);
-}
+const ShapeSetInfo& ShapeSetReader::info() const { return impl_->grids->info(); }
+std::vector<std::string> ShapeSetReader::Names() const { return impl_->grids->Names(); }
+SdfGrid ShapeSetReader::Grid(int i) const { return impl_->grids->Grid(i); }
 
 ShapeSet ReadShapeSet(const std::filesystem::path& path) {
   const ShapeSetReader reader(path);
@@ -236,7 +139,13 @@ ShapeSet ReadShapeSet(const std::filesystem::path& path) {
   return set;
 }
 
-ShapeSetInfo ReadShapeSetInfo(const std::filesystem::path& path) { return Reader(path).Info(); }
+ShapeSetInfo ReadShapeSetInfo(const std::filesystem::path& path) {
+  return ShapeSetReader(path).info();
+}
+
+std::string ShapeFileText(const ShapeSetInfo& info) {
+  return KindOfFile(info) + "\n" + ShapeSetText(info);
+}
 
 std::string ShapeSetText(const ShapeSetInfo& info) {
   char grids[96], spacing[96], values[64] = "exact distances";
@@ -251,15 +160,15 @@ std::string ShapeSetText(const ShapeSetInfo& info) {
 }
 
 std::vector<std::string> ReadShapeNames(const std::filesystem::path& path) {
-  const Reader reader(path);
-  return reader.Names(reader.Info().count);
+  return ShapeSetReader(path).Names();
 }
 
 bool IsShapeSet(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  if (ShapeFormatOf(path) != ShapeFormat::kHdf5) return true;
   const auto file = Hdf5File::Open(path);
-  return file && file->StringAttribute("format") == kFormat;
+  return file && file->StringAttribute("format") == "antigrasp.sdf";
 }
 
 }  // namespace antigrasp

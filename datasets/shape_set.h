@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "antigrasp/core/choice.h"
+#include "antigrasp/datasets/shape_format.h"
 #include "antigrasp/sdf/sdf_grid.h"
 
 namespace antigrasp {
@@ -25,8 +28,9 @@ void RequireShapeSetName(const std::filesystem::path& path);
 
 // HDF5 layout in docs/formats.md: dataset /sdf float32 [N, n, n, n] (z, y, x; chunked, shuffled,
 // deflated) with its attributes sign = "positive inside", unit and side, /names, attributes format
-// = "antigrasp.sdf", version, kind, seed, spacing, origin, truncation, provenance. Written grid by
-// grid, so that memory does not grow with the set; there when Commit() returns, else nothing is.
+// = "antigrasp.sdf", version, kind, seed, spacing, origin, truncation, provenance; .npz and .vti
+// hold the same, .npy the grids alone. Written grid by grid, so that memory does not grow with the
+// set; there when Commit() returns, else nothing is.
 class ShapeSetWriter {
  public:
   // `about`: everything but its names and grids, of which `count` will follow. InputError for a
@@ -43,19 +47,36 @@ class ShapeSetWriter {
 };
 void WriteShapeSet(const std::filesystem::path& path, const ShapeSet& set);
 
+// What the values of a file mean that does not say it: arrays of other programs. Of the file: as it
+// says, else positive inside.
+enum class GridSign { kOfFile, kPositiveInside, kNegativeInside };
+constexpr auto ChoicesOf(GridSign) {
+  return std::to_array<Choice<GridSign>>({{GridSign::kOfFile, "of-file"},
+                                          {GridSign::kPositiveInside, "positive-inside"},
+                                          {GridSign::kNegativeInside, "negative-inside"}});
+}
+struct GridMeaning {
+  GridSign sign = GridSign::kOfFile;
+  double spacing = 0.0;  // of the nodes in the unit of the values; 0: the file's, else 1/n
+};
+
 struct ShapeSetInfo {
+  ShapeFormat format = ShapeFormat::kHdf5;
   std::string kind, provenance;
   std::uint64_t seed = 0;
   int count = 0, n = 0, version = 0;
   double spacing = 0.0, truncation = 0.0, side = 0.0;
 };
 
-// An SDF file whose grids are read when they are asked for, by any thread. Everything throws
-// InputError naming the path: for a missing, foreign, truncated or inconsistent file the
-// constructor, for a damaged grid Grid().
+// An SDF file, or an array of other programs (shape_format.h), whose grids are read when they are
+// asked for, by any thread. Distances of others become those of the unit cube, positive inside;
+// info().side is the cube's side in their unit. Everything throws InputError naming the path: for a
+// missing, foreign, truncated or inconsistent file the constructor, so for one whose sign or
+// spacing is not what it says (grid_check.h); for a damaged grid Grid(). Arrays that are packed
+// wait unpacked in the folder for temporary files.
 class ShapeSetReader {
  public:
-  explicit ShapeSetReader(const std::filesystem::path& path);
+  explicit ShapeSetReader(const std::filesystem::path& path, const GridMeaning& meaning = {});
   ~ShapeSetReader();
   const ShapeSetInfo& info() const;
   std::vector<std::string> Names() const;  // one per grid
@@ -68,6 +89,8 @@ class ShapeSetReader {
 ShapeSet ReadShapeSet(const std::filesystem::path& path);
 
 ShapeSetInfo ReadShapeSetInfo(const std::filesystem::path& path);  // attributes only, no grids
+// "antigrasp SDF file, version 2" or another kind of file; then what follows here.
+std::string ShapeFileText(const ShapeSetInfo& info);
 // The same for people, a line each with two spaces before it.
 std::string ShapeSetText(const ShapeSetInfo& info);
 std::vector<std::string> ReadShapeNames(const std::filesystem::path& path);  // names, no grids

@@ -7,8 +7,9 @@
 
 namespace antigrasp {
 
-// What the coordinates of a mesh are in; of the formats that are read only 3MF and GLB say so. An
-// SDF file's unit is that of the meshes which it was imported from, else the side of its cube.
+// What the coordinates of a mesh are in; of the formats that are read only 3MF, GLB and COLLADA say
+// so. An SDF file's unit is that of the meshes which it was imported from, else the side of its
+// cube.
 enum class LengthUnit { kMm, kCm, kM, kIn };
 constexpr auto ChoicesOf(LengthUnit) {
   return std::to_array<Choice<LengthUnit>>({{LengthUnit::kMm, "mm"},

@@ -61,6 +61,8 @@ PolygonSoup ReadSoup(MeshFormat format, const std::string& bytes, const std::str
       return Read3mf(bytes, path);
     case MeshFormat::kGlb:
       return ReadGlb(bytes, path);
+    case MeshFormat::kDae:
+      return ReadDae(bytes, path);
   }
   AG_CHECK(false, "unknown mesh format");
 }

@@ -13,15 +13,15 @@ namespace antigrasp {
 // A mesh in the coordinates of its file.
 struct MeshFile {
   TriangleMesh mesh;
-  std::optional<FileUnit> unit;    // what they are in, of 3MF and GLB, which say so
+  std::optional<FileUnit> unit;    // what they are in, of 3MF, GLB and COLLADA, which say so
   std::vector<std::string> notes;  // what was left out or read otherwise, a few words each
 };
 
-// Reads STL (ascii or binary), OBJ, PLY, OFF, 3MF or GLB by content and extension. Polygons are
-// triangulated, several groups joined, exactly equal positions merged; nothing else is repaired
-// (see repair.h). Of 3MF what is built, of GLB the default scene, every object at its place; the
-// axes stay (glTF's y is up). InputError when the file is missing, a directory, truncated, of
-// another format or not finite.
+// Reads STL (ascii or binary), OBJ, PLY, OFF, 3MF, GLB or COLLADA by content and extension.
+// Polygons are triangulated, several groups joined, exactly equal positions merged; nothing else is
+// repaired (see repair.h). Of 3MF what is built, of GLB the default scene, every object at its
+// place; the axes stay (glTF's y is up). InputError when the file is missing, a directory,
+// truncated, of another format or not finite.
 MeshFile ReadMeshFile(const std::filesystem::path& path);
 
 // The mesh in `unit` when its file knows its own, else as it is.

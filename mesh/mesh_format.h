@@ -10,20 +10,21 @@
 
 namespace antigrasp {
 
-enum class MeshFormat { kStl, kObj, kPly, kOff, k3mf, kGlb };
+enum class MeshFormat { kStl, kObj, kPly, kOff, k3mf, kGlb, kDae };
 constexpr auto ChoicesOf(MeshFormat) {  // extensions
   return std::to_array<Choice<MeshFormat>>({{MeshFormat::kStl, "stl"},
                                             {MeshFormat::kObj, "obj"},
                                             {MeshFormat::kPly, "ply"},
                                             {MeshFormat::kOff, "off"},
                                             {MeshFormat::k3mf, "3mf"},
-                                            {MeshFormat::kGlb, "glb"}});
+                                            {MeshFormat::kGlb, "glb"},
+                                            {MeshFormat::kDae, "dae"}});
 }
 
 // What ReadMesh and WriteMesh know; every help text, check and message is made from these lists.
-inline constexpr std::array kReadableFormats = {MeshFormat::kStl, MeshFormat::kObj,
-                                                MeshFormat::kPly, MeshFormat::kOff,
-                                                MeshFormat::k3mf, MeshFormat::kGlb};
+inline constexpr std::array kReadableFormats = {
+    MeshFormat::kStl, MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kOff,
+    MeshFormat::k3mf, MeshFormat::kGlb, MeshFormat::kDae};
 inline constexpr std::array kWritableFormats = {MeshFormat::kStl, MeshFormat::kObj,
                                                 MeshFormat::kPly, MeshFormat::kOff};
 

@@ -23,4 +23,8 @@ PolygonSoup ReadOff(std::string_view bytes, const std::string& path);
 PolygonSoup Read3mf(std::string_view bytes, const std::string& path);
 PolygonSoup ReadGlb(std::string_view bytes, const std::string& path);
 
+// COLLADA, by assimp in a copy of the process, bounded in time and memory: a file that it dies of
+// is an InputError.
+PolygonSoup ReadDae(std::string_view bytes, const std::string& path);
+
 }  // namespace antigrasp

@@ -102,6 +102,7 @@ std::string Bytes(MeshFormat format, const TriangleMesh& mesh) {
       return OffBytes(mesh);
     case MeshFormat::k3mf:
     case MeshFormat::kGlb:
+    case MeshFormat::kDae:
       break;  // are read only
   }
   AG_CHECK(false, "unknown mesh format");

@@ -32,6 +32,7 @@ struct XmlElements::State {
   std::string where, uri;
   Start start;
   End end;
+  Text text;
   XML_Parser parser = nullptr;
   std::exception_ptr thrown;
 
@@ -55,23 +56,31 @@ struct XmlElements::State {
     auto* self = static_cast<State*>(state);
     self->Guarded(name, self->end);
   }
+  static void OnText(void* state, const char* text, int length) {
+    auto* self = static_cast<State*>(state);
+    self->Guarded(self->uri.c_str(), [&](std::string_view) {
+      self->text({text, static_cast<std::size_t>(length)});
+    });
+  }
   static void OnDocumentType(void* state, const char*, const char*, const char*, int) {
     auto* self = static_cast<State*>(state);
     self->Guarded(self->uri.c_str(), [&](std::string_view) {
-      throw InputError("a document type", self->where, "XML without one, as 3MF has it");
+      throw InputError("a document type", self->where, "XML without one");
     });
   }
 };
 
-XmlElements::XmlElements(std::string where, std::string uri, Start start, End end)
+XmlElements::XmlElements(std::string where, std::string uri, Start start, End end, Text text)
     : state_(std::make_unique<State>()) {
   state_->where = std::move(where);
   state_->uri = std::move(uri);
   state_->start = std::move(start);
   state_->end = std::move(end);
+  state_->text = std::move(text);
   state_->parser = XML_ParserCreateNS(nullptr, kSeparator);
   XML_SetUserData(state_->parser, state_.get());
   XML_SetElementHandler(state_->parser, &State::OnStart, &State::OnEnd);
+  if (state_->text) XML_SetCharacterDataHandler(state_->parser, &State::OnText);
   XML_SetStartDoctypeDeclHandler(state_->parser, &State::OnDocumentType);
 }
 

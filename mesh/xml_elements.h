@@ -24,10 +24,11 @@ class XmlAttributes {
 class XmlElements {
  public:
   // `uri` begins the namespace that is looked at; others are skipped. `start` and `end` get the
-  // name without it and may throw.
+  // name without it and may throw. `text` gets what stands between, piece by piece.
   using Start = std::function<void(std::string_view name, const XmlAttributes& attributes)>;
   using End = std::function<void(std::string_view name)>;
-  XmlElements(std::string where, std::string uri, Start start, End end);
+  using Text = std::function<void(std::string_view text)>;
+  XmlElements(std::string where, std::string uri, Start start, End end, Text text = nullptr);
   ~XmlElements();
   // The next bytes. InputError that names `where` and the line when they are no XML, and what
   // `start` and `end` throw.

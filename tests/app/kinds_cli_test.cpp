@@ -36,8 +36,9 @@ TEST(KindsCli, AFileOfAnotherKindIsNamedAsWhatItIs) {
   ExpectRefused("compare " + sdf + " " + table + out + "c.csv", is_table + "a mesh (");
   ExpectRefused("dataset import " + table + out + "i.h5", is_table + "a mesh (");
   ExpectRefused("info " + dir + "part.stl", is_table + "a mesh (");
-  ExpectRefused("dataset import " + sdf + out + "i.h5",
-                "is an HDF5 file (as SDF files are), not a mesh");
+  ExpectRefused("dataset import " + sdf + " " + mesh + out + "i.h5", "meshes alone or grids alone");
+  ExpectRefused("dataset import " + mesh + " --sign negative-inside" + out + "i.h5",
+                "--sign (" + mesh + "): expected grids: meshes have none");
   ExpectRefused("remesh " + mesh + out + "m", "is a mesh, not an SDF file (");
   ExpectRefused("remesh " + table + out + "m", is_table + "an SDF file (");
   ExpectRefused("quality " + mesh, "is a mesh, not a table (");

@@ -44,7 +44,7 @@ void ExpectRefused(const std::string& name, const std::string& bytes, const std:
 TEST(HostileFile, EmptyGarbageAndForeignFilesAreRefusedInEveryFormat) {
   const std::string garbage = "hello world, this is a letter and no mesh at all\n\xff\xfe" +
                               std::string(200, '\0') + "more";
-  for (const char* name : {"a.stl", "a.obj", "a.ply", "a.off", "a.3mf", "a.glb"}) {
+  for (const char* name : {"a.stl", "a.obj", "a.ply", "a.off", "a.3mf", "a.glb", "a.dae"}) {
     ExpectRefused(name, "", "empty file");
     ExpectRefused(name, garbage, "expected");
     ExpectRefused(name, "\n\n\n", "expected");

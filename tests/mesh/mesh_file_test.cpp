@@ -109,7 +109,7 @@ TEST(MeshFile, EveryListedFormatIsReadAndWritten) {
   }
   EXPECT_EQ(WritableExtensions(), (std::vector<std::string>{"stl", "obj", "ply", "off"}));
   EXPECT_EQ(ReadableExtensions(),
-            (std::vector<std::string>{"stl", "obj", "ply", "off", "3mf", "glb"}));
+            (std::vector<std::string>{"stl", "obj", "ply", "off", "3mf", "glb", "dae"}));
 }
 
 TEST(MeshFile, RefusesToWriteWhatNoReaderWouldTake) {

@@ -72,6 +72,7 @@ class Formats(unittest.TestCase):
         (cls.path / "open.obj").write_text(CUBE.rsplit("f", 1)[0])
         (cls.path / "contacts.csv").write_text(GRASP)
         cls.call("dataset", "make", "cylinders", "--count", "2", "--out", "batch.h5")
+        cls.call("dataset", "import", "batch.h5", "--out", "set.npz")
         cls.call("evaluate", "batch.h5", "box.obj", "open.obj", "--out", "scores.csv", "--grasps", "grasps.csv", *QUICK)
 
     @classmethod
@@ -102,6 +103,11 @@ class Formats(unittest.TestCase):
         self.assertEqual(names["names"], ["cylinders-000000", "cylinders-000001"])
         # Node (x, y, z) = (4, 8, 16) of 32: -0.5 + (2 i + 1) / 64.
         self.assertEqual(list(names["node"]), [-0.359375, -0.234375, 0.015625])
+        self.assertEqual(names["solid"].shape, (32, 32, 32))
+        self.call("dataset", "import", "mine.npz", "--out", "mine.h5")  # which the last one wrote
+        with h5py.File(self.path / "mine.h5") as file:
+            self.assertEqual([name.decode() for name in file["names"]], ["shape 0", "shape 1"])
+            self.assertEqual(file.attrs["kind"], b"import")
 
     def test_an_sdf_file_has_the_listed_objects_and_attributes_and_no_others(self):
         rows = dict(re.findall(r"^\| `([^`]*)` \| (.*?) \|", section("SDF file"), re.MULTILINE))
