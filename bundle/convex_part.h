@@ -22,7 +22,7 @@ struct ConvexPart {
   BoundingBox box;
   double volume = 0.0;
 
-  bool empty() const { return mesh.faces.empty(); }
+  bool empty() const { return planes.empty(); }
   // How far it is from a point inside to the surface along a direction; 0 outside. Stops, and
   // returns no more than that, where it is within `enough`.
   double Way(const Eigen::Vector3d& point, const Eigen::Vector3d& direction, double enough) const;

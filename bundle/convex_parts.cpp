@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "antigrasp/bundle/draw_in.h"
 #include "antigrasp/bundle/hull_volume.h"
 #include "antigrasp/bundle/join_parts.h"
 #include "antigrasp/bundle/solid_piece.h"
@@ -24,12 +25,12 @@ using Eigen::Vector3d;
 constexpr double kEdge = 1.5;         // cells: longest edge of the surface that is cut
 constexpr double kNear = 2.5;         // cells: whose faces say how a dent runs
 constexpr int kTurns = 8;             // planes through a dent, about its line
-constexpr std::size_t kPlaces = 3;    // dents at which a piece may be cut
+constexpr std::size_t kPlaces = 2;    // dents at which a piece may be cut
 constexpr double kDeep = 0.6;         // of the deepest
 constexpr double kSliver = 1e-4;      // of the volume: less is no piece
 constexpr double kUnlike = 0.01;      // what a difference of volumes costs beside volume
 constexpr double kLess = 1.0 - 1e-9;  // sums over hulls differ in their last bits from call to call
-constexpr int kMorePieces = 2;        // than parts, before they are joined
+constexpr double kMorePieces = 1.5;   // than parts, before they are joined
 
 struct Node {
   SolidPiece piece;
@@ -98,7 +99,7 @@ class Cutter {
     std::vector<Node> nodes;
     nodes.push_back(MakeNode({fine_, {}, {}}));
     std::vector<ConvexPart> done;
-    const int most = kMorePieces * options.parts;
+    const int most = static_cast<int>(kMorePieces * options.parts);
     while (!nodes.empty()) {
       const auto deepest = std::max_element(
           nodes.begin(), nodes.end(),
@@ -111,7 +112,9 @@ class Cutter {
       if (!node.hull.empty()) done.push_back(std::move(node.hull));
     }
 
-    return JoinParts(std::move(done), surface_, solid_, dent, options.parts);
+    std::vector<ConvexPart> joined =
+        JoinParts(std::move(done), surface_, solid_, dent, options.parts);
+    return options.draw_in > 0.0 ? DrawnIn(joined, solid_, options.draw_in, cell_) : joined;
   }
 
  private:

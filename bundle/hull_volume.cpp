@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "antigrasp/mesh/convex_hull.h"
+#include "antigrasp/bundle/small_hull.h"
 
 namespace antigrasp {
 namespace {
@@ -48,7 +48,7 @@ std::vector<Eigen::Vector3d> FurthestPoints(const std::vector<Eigen::Vector3d>& 
 }
 
 double AboutHullVolume(const std::vector<Eigen::Vector3d>& points) {
-  return Volume(ConvexHull(FurthestPoints(points)));
+  return SmallHull(FurthestPoints(points)).Volume();
 }
 
 }  // namespace antigrasp

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "antigrasp/bundle/hull_volume.h"
+#include "antigrasp/bundle/small_hull.h"
 
 namespace antigrasp {
 namespace {
@@ -108,7 +109,7 @@ class Joiner {
   Joint Join(std::size_t i, std::size_t j) const {
     if (BetweenInAir(parts_[i].mesh.vertices, parts_[j].mesh.vertices)) return {{}, kNever};
     const std::vector<Eigen::Vector3d> points = CornersOf(i, j);
-    const double least = DeepestIn(MakeConvexPart(FurthestPoints(points)), surface_, 0.0).depth;
+    const double least = DeepestIn(SmallHull(FurthestPoints(points)).Part(), surface_, 0.0).depth;
     if (least > dent_) return {{}, least};
     Joint joint{MakeConvexPart(points), 0.0};
     joint.depth = DeepestIn(joint.hull, surface_, 0.0).depth;

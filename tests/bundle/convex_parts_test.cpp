@@ -48,6 +48,7 @@ TEST(ConvexParts, KeepASlotOpenDownToItsBottom) {
 TEST(ConvexParts, AreNoMoreThanAskedFor) {
   PartOptions one;
   one.parts = 1;
+  one.draw_in = 0.0;
   const auto hull = ConvexParts(shapes::UShape(), one);
   ASSERT_EQ(hull.size(), 1u);
   EXPECT_NEAR(hull[0].volume, 72e-6, 1e-12);
