@@ -114,7 +114,8 @@ class Cutter {
 
     std::vector<ConvexPart> joined =
         JoinParts(std::move(done), surface_, solid_, dent, options.parts);
-    return options.draw_in > 0.0 ? DrawnIn(joined, solid_, options.draw_in, cell_) : joined;
+    return options.draw_in > 0.0 ? DrawnIn(std::move(joined), solid_, options.draw_in, cell_)
+                                 : joined;
   }
 
  private:

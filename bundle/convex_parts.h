@@ -11,7 +11,7 @@ struct PartOptions {
   int parts = 32;     // at most
   double dent = 0.4;  // cells: no single part covers a deeper one, where `parts` suffice
   // How far facets over air are drawn in (draw_in.h); 0: the parts hold all of the solid.
-  double draw_in = 0.33;
+  double draw_in = 0.3;
 };
 
 // A cell of the grid of 32^3 nodes on which the object would be imported (sdf_grid.h): a 28th of

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -18,6 +19,8 @@ constexpr double kDeepest = 1.0;     // cells
 constexpr double kAir = 0.02;        // cells: shallower air is none
 constexpr double kRoom = 0.01;       // cells: what is thinner is gone
 constexpr double kOnFacet = 1e-6;    // of the size
+constexpr double kLost = 0.4;        // cells that a corner may come to lie outside
+constexpr int kShares = 3;           // each half of the one before
 constexpr int kSteps = 200;
 constexpr double kOver = 1.2;  // of the way to a plane
 
@@ -75,6 +78,26 @@ ConvexPart DrawnInPart(const ConvexPart& part, const std::vector<double>& air, d
   return inside ? Behind(planes, *inside) : ConvexPart{};
 }
 
+// How far the corners of a part come to lie outside of all others and of what is left of it.
+double Loss(const ConvexPart& before, const std::vector<ConvexPart>& parts, std::size_t which,
+            const ConvexPart& left) {
+  double loss = 0.0;
+  for (const Vector3d& corner : before.mesh.vertices) {
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const ConvexPart& part = i == which ? left : parts[i];
+      if (part.empty()) continue;
+      double outside = 0.0;
+      for (const HalfSpace& plane : part.planes) {
+        outside = std::max(outside, plane.Outside(corner));
+      }
+      least = std::min(least, outside);
+    }
+    loss = std::max(loss, least);
+  }
+  return loss;
+}
+
 }  // namespace
 
 ConvexPart Behind(const std::vector<HalfSpace>& planes, const Vector3d& inside) {
@@ -91,19 +114,22 @@ ConvexPart Behind(const std::vector<HalfSpace>& planes, const Vector3d& inside) 
   return MakeConvexPart(corners);
 }
 
-std::vector<ConvexPart> DrawnIn(const std::vector<ConvexPart>& parts, const SolidTest& solid,
-                                double share, double cell) {
-  std::vector<ConvexPart> drawn;
+std::vector<ConvexPart> DrawnIn(std::vector<ConvexPart> parts, const SolidTest& solid, double share,
+                                double cell) {
+  const std::vector<ConvexPart> before = parts;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::vector<double> air = AirBelow(parts, i, solid, cell);
-    if (*std::max_element(air.begin(), air.end()) <= kAir * cell) {
-      drawn.push_back(parts[i]);
-      continue;
+    const std::vector<double> air = AirBelow(before, i, solid, cell);
+    if (*std::max_element(air.begin(), air.end()) <= kAir * cell) continue;
+    double by = share;
+    for (int k = 0; k < kShares; ++k, by *= 0.5) {
+      ConvexPart part = DrawnInPart(before[i], air, by, cell);
+      if (Loss(before[i], parts, i, part) > kLost * cell) continue;
+      parts[i] = std::move(part);
+      break;
     }
-    ConvexPart part = DrawnInPart(parts[i], air, share, cell);
-    if (!part.empty()) drawn.push_back(std::move(part));
   }
-  return drawn.empty() ? parts : drawn;
+  std::erase_if(parts, [](const ConvexPart& part) { return part.empty(); });
+  return parts;
 }
 
 }  // namespace antigrasp

@@ -10,10 +10,11 @@ namespace antigrasp {
 
 // Draws the facets that cover air in by `share` of how far the solid is below them at most (no more
 // than a cell counts): the union is then a little inside of the solid at its ridges, and so much
-// less outside over its dents. Facets on the solid, and in it, stay. Of a part that is gone then
-// (a sliver over air) nothing is left. Fails on no input: where every part would go they stay.
-std::vector<ConvexPart> DrawnIn(const std::vector<ConvexPart>& parts, const SolidTest& solid,
-                                double share, double cell);
+// less outside over its dents. Facets on the solid, and in it, stay. By less, or not at all, where
+// a corner of the part would come to lie more than 0.4 cells outside of all parts; a part of which
+// nothing is left then, a sliver over air, goes.
+std::vector<ConvexPart> DrawnIn(std::vector<ConvexPart> parts, const SolidTest& solid, double share,
+                                double cell);
 
 // What is behind all planes; `inside` is a point that is. Empty when it has no volume.
 ConvexPart Behind(const std::vector<HalfSpace>& planes, const Eigen::Vector3d& inside);

@@ -44,10 +44,11 @@ TEST(DrawnIn, FacetsOnTheSolidAndInItStay) {
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(drawn[i].mesh.vertices, two[i].mesh.vertices);
 }
 
+// A tenth of a cell thick and no more than 0.35 cells from the box.
 TEST(DrawnIn, ASliverOverAirIsGone) {
   const TriangleMesh solid = shapes::Box({0.04, 0.03, 0.02});
   const BoundingBox box = Bounds(solid);
-  const Vector3d over(0.0, 0.0, 0.02 + kCell);
+  const Vector3d over(0.0, 0.0, 0.02 + 0.25 * kCell);
   const std::vector<ConvexPart> two{
       BoxPart(box.min, box.max),
       BoxPart(box.min + over,
@@ -55,7 +56,7 @@ TEST(DrawnIn, ASliverOverAirIsGone) {
   const auto drawn = DrawnIn(two, SolidTest(solid), 0.5, kCell);
   ASSERT_EQ(drawn.size(), 1u);
   EXPECT_NEAR(drawn[0].volume, 24e-6, 1e-12);
-  // The last one stays whatever it covers.
+  // Where nothing else is near it stays.
   EXPECT_EQ(DrawnIn({two[1]}, SolidTest(solid), 0.5, kCell).size(), 1u);
 }
 
