@@ -10,6 +10,7 @@
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/launch.h"
+#include "antigrasp/core/parallel.h"
 
 namespace antigrasp {
 namespace {
@@ -38,6 +39,11 @@ std::unique_ptr<Ranks> JoinRanks(int processes,
   if (!launch && processes <= 1) return nullptr;
   if (!CanJoin()) {
     throw RuntimeFailure("several processes, but this build was made without libgloo-dev");
+  }
+  const int most = 4 * HardwareThreads();
+  if (!launch && processes > most) {
+    throw InputError("--processes " + std::to_string(processes), "command line",
+                     "at most " + std::to_string(most) + " on this machine, four a processor");
   }
   JoinOptions options;
   options.same = same();
