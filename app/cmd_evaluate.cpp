@@ -82,6 +82,14 @@ void EvaluateAll(EvaluateFlags* given, const ObjectSource& objects, const Scorin
   RequireAVerdict(scores, scoring.judge);
 }
 
+PhysicsTrialOptions TrialOf(const EvaluateFlags& flags, const TypedTrial& typed,
+                            MetricOptions* metric) {
+  const Protocol protocol = ProtocolOf(flags.protocol);
+  const PhysicsTrialOptions trial = TrialOptionsOf(protocol, typed, metric);
+  if (flags.in_physics) RequireOptionsUsed(protocol, trial.physics.tip.shape, typed, true);
+  return trial;
+}
+
 void EvaluateGrasps(EvaluateFlags flags, const TypedTrial& typed, const MetricOptions& metric) {
   const std::vector<std::filesystem::path> written = {
       flags.out, MetricPath(flags), flags.out.empty() ? "" : flags.out + ".trial.toml",
@@ -89,14 +97,10 @@ void EvaluateGrasps(EvaluateFlags flags, const TypedTrial& typed, const MetricOp
   RequireApart(written);
   ObjectSource(flags.inputs).RequireNotRead(written);
   RequireNotRead(flags.grasps, written);
-  const Protocol protocol = ProtocolOf(flags.protocol);
   MetricOptions of_trial = metric;
-  const PhysicsTrialOptions trial = TrialOptionsOf(protocol, typed, &of_trial);
+  const PhysicsTrialOptions trial = TrialOf(flags, typed, &of_trial);
   flags.output.about.density = trial.density;
-  if (flags.in_physics) {
-    RequireOptionsUsed(protocol, trial.physics.tip.shape, typed, true);
-    flags.output.about.protocol = ChoiceName(flags.protocol);
-  }
+  if (flags.in_physics) flags.output.about.protocol = ChoiceName(flags.protocol);
   ConsoleObserver console;
   const GivenReport report = ScoreGiven(flags, metric, of_trial, trial, &console);
   std::fputs(report.table.c_str(), stdout);
@@ -122,6 +126,7 @@ void Evaluate(EvaluateFlags flags, const TypedTrial& typed, const MetricFlags& m
   if (flags.in_physics && flags.output.path.empty()) {
     throw InputError("--trial", "evaluate", "--grasps FILE for what it says, or --grasps-in");
   }
+  if (auto metric = scoring.metric; flags.in_physics) TrialOf(flags, typed, &metric);
   const std::vector<std::filesystem::path> written = {flags.out, MetricPath(flags),
                                                       flags.output.path};
   RequireApart(written);

@@ -11,9 +11,11 @@
 #include "antigrasp/core/csv_writer.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/ordered_stream.h"
+#include "antigrasp/datasets/npy_text.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/datasets/result_folder.h"
 #include "antigrasp/mesh/mesh_file.h"
+#include "antigrasp/mesh/place.h"
 #include "antigrasp/quality/named_gripper.h"
 #include "antigrasp/quality/object_size.h"
 
@@ -21,6 +23,8 @@ namespace antigrasp {
 namespace {
 
 constexpr const char* kTable = "bundle.csv";
+constexpr const char* kSelfCheck = "self_check";
+constexpr double kMostLoss = 1e-5;             // of the largest extent, as perturb has it
 constexpr const char* kEgadGripper = "panda";  // of EGAD's own trials
 
 struct BundledObject {
@@ -43,9 +47,18 @@ ResultFiles FilesOfCall() {
   return files;
 }
 
-bool HasControlCharacter(const std::string& name) {
-  return std::any_of(name.begin(), name.end(),
-                     [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+// Why no bundle can have this name; empty where one can.
+std::string WhyNotNamed(const std::string& name) {
+  const bool control = std::any_of(name.begin(), name.end(),
+                                   [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+  if (control) return "its name has a control character: no XML can hold it";
+  if (ValidUtf8(name) != name) return "its name is no UTF-8: no XML can hold it";
+  if (FileNameOf(name) == kTable) return "its folder would be called as the table is";
+  if (FileNameOf(name).starts_with(kSelfCheck)) {
+    return std::string("its name begins with ") + kSelfCheck +
+           ", as the files of the self-check do";
+  }
+  return "";
 }
 
 class Bundler {
@@ -64,16 +77,17 @@ class Bundler {
     const Eigen::Vector3d oriented = OrientedExtents(object.mesh);
     made.metres_per_unit = MetresPerUnitOf(object.mesh, oriented);
     const double width = made.metres_per_unit * oriented.minCoeff();
-    if (HasControlCharacter(object.name)) {
-      made.status = "its name has a control character: no XML can hold it";
+    const TriangleMesh in_metres =
+        Transformed(object.mesh, made.metres_per_unit, Eigen::Vector3d::Zero());
+    if (const std::string why = WhyNotNamed(object.name); !why.empty()) {
+      made.status = why;
+    } else if (SinglePrecisionLoss(in_metres) > kMostLoss * Bounds(in_metres).Extent().maxCoeff()) {
+      made.status = "too far from the origin for STL's single precision: move it there";
     } else if (!request_.gripper.empty() && width > opening_) {
       made.status = LengthText(width) + " wide where it is narrowest: the gripper opens " +
                     LengthText(opening_);
     } else {
-      made.bundle =
-          MakeObjectBundle(FileNameOf(object.name),
-                           Transformed(object.mesh, made.metres_per_unit, Eigen::Vector3d::Zero()),
-                           request_.options);
+      made.bundle = MakeObjectBundle(FileNameOf(object.name), in_metres, request_.options);
     }
     return made;
   }
@@ -148,6 +162,7 @@ class BundleTable {
 }  // namespace
 
 BundleReport WriteBundles(const BundleRequest& request, RunObserver* observer) {
+  if (request.out.empty()) throw InputError("--out \"\"", "bundle", "a folder");
   const bool as_it_is = request.scale == ObjectScale::kTrue;
   const ObjectSource objects(request.inputs, GridUnit::kOfFiles,
                              as_it_is ? std::optional(request.units) : std::nullopt);

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/datasets/mesh_folder.h"
 
 namespace antigrasp {
 
@@ -18,10 +19,15 @@ void AddFolder(const fs::path& folder, ImportSources* sources) {
     sources->layouts += folder.string() + ": layout of " + found.layout + ", " +
                         std::to_string(found.objects.size()) + " objects\n";
   }
+  const bool plain = found.layout.empty() && !found.objects.empty();
   sources->meshes.insert(sources->meshes.end(), std::make_move_iterator(found.objects.begin()),
                          std::make_move_iterator(found.objects.end()));
   sources->skipped.insert(sources->skipped.end(), std::make_move_iterator(found.skipped.begin()),
                           std::make_move_iterator(found.skipped.end()));
+  if (!plain) return;
+  for (const fs::path& grids : GridFilesIn(folder)) {
+    sources->skipped.emplace_back(grids.string(), "grids among meshes: import them by themselves");
+  }
 }
 
 }  // namespace

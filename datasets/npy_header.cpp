@@ -31,7 +31,9 @@ std::vector<std::uint64_t> ParseShape(std::string_view text, const std::string& 
   bool digits = false;
   for (const char c : text.substr(1, end)) {
     if (c >= '0' && c <= '9') {
-      number = std::min(number * 10 + static_cast<std::uint64_t>(c - '0'), kMostValues);
+      // No further than the limit: it would come round to something small.
+      number = number > kMostValues / 16 ? kMostValues
+                                         : number * 10 + static_cast<std::uint64_t>(c - '0');
       digits = true;
     } else if (c == ',' || c == ')') {
       if (digits) shape.push_back(number);
@@ -87,6 +89,10 @@ NpyHeader ParseNpyHeader(std::string_view first_bytes, const std::string& where)
     throw InputError("truncated or damaged NumPy header", where, kWantedArray);
   }
   const std::string_view text = first_bytes.substr(begin, length);
+  const std::size_t last = text.find_last_not_of(" \n");
+  if (last == std::string_view::npos || text[last] != '}') {
+    throw InputError("truncated or damaged NumPy header", where, kWantedArray);
+  }
   NpyHeader header;
   header.size = begin + length;
   header.dtype = ParseType(ValueOfKey(text, "descr", where), where);

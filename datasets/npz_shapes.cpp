@@ -70,7 +70,10 @@ std::string NameOfGrids(const NpzArchive& archive, const std::string& path) {
 }
 
 void ReadMeaning(const NpzMeaning& says, const std::string& path, ForeignGrids* grids) {
-  if (says.Has("spacing")) grids->spacing = says.Numbers("spacing", 1)[0];
+  if (says.Has("spacing")) {
+    grids->spacing = says.Numbers("spacing", 1)[0];
+    if (!(grids->spacing > 0.0)) throw InputError("no usable spacing", path, "a length above 0");
+  }
   if (!says.Has("format") || says.Text("format") != kNpzFormat) return;
   grids->says = true;
   if (says.Text("sign") != "positive inside") {

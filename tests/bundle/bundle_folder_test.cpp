@@ -117,6 +117,30 @@ TEST_F(BundleFolder, LeavesOutWhatIsWiderThanTheGripperOpens) {
             "cube.obj: left out: 1 m wide where it is narrowest: the gripper opens 80 mm");
 }
 
+TEST_F(BundleFolder, LeavesOutWhatItsFilesCannotBeCalled) {
+  for (const char* name : {"self_check.obj", "bundle.csv.obj", "\xff.obj"}) {
+    WriteMesh(folder_ / name, shapes::LShape());
+  }
+  Write({"l.obj", "self_check.obj", "bundle.csv.obj", "\xff.obj"});
+  const auto rows = shapes::CsvRows(folder_ / "out/bundle.csv");
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[1].at("status"),
+            "its name begins with self_check, as the files of the self-check do");
+  EXPECT_EQ(rows[2].at("status"), "its folder would be called as the table is");
+  EXPECT_EQ(rows[3].at("status"), "its name is no UTF-8: no XML can hold it");
+  request_.out.clear();
+  EXPECT_EQ(Refusal({"l.obj"}), "--out \"\" (bundle): expected a folder");
+}
+
+// An L of some centimetres 5 km away: single precision knows half a millimetre there.
+TEST_F(BundleFolder, LeavesOutWhatSinglePrecisionWouldBend) {
+  const TriangleMesh far = Transformed(shapes::LShape(), 1.0, {5000.0, 5000.0, 0.0});
+  WriteMesh(folder_ / "far.obj", far);
+  EXPECT_EQ(Refusal({"far.obj"}),
+            "too far from the origin for STL's single precision: move it there (" +
+                (folder_ / "far.obj").string() + "): expected a closed solid");
+}
+
 TEST_F(BundleFolder, IsRefusedWhereItIsUsedAndReplacedWhenAskedTo) {
   Write({"l.obj"});
   const auto before = shapes::FileContents(request_.out);

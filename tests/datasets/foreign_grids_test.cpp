@@ -237,6 +237,12 @@ TEST(ForeignGrids, HeadersOfNumpyAreNotBelieved) {
   ExpectGridsRefused("a.npy", Npy(Dictionary("<f4", "1000000, 2, 2, 2"), floats), "bytes");
   ExpectGridsRefused("a.npy", Npy(Dictionary("<f4", "99999999999999999999, 2, 2, 2"), floats),
                      "grids of");
+  // 2^64 + 1: comes round to 1 in 64 bits.
+  ExpectGridsRefused("a.npy", Npy(Dictionary("<f4", "18446744073709551617, 2, 2, 2"), floats),
+                     "grids of");
+  ExpectGridsRefused(
+      "a.npy", Npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2, 2), 'x'", floats),
+      "truncated or damaged");
   ExpectGridsRefused("a.npy", Npy(Dictionary("<f4", "1, 1024, 1024, 1024"), floats), "1024 nodes");
   ExpectGridsRefused("a.npy", Npy(Dictionary("<f4", "2, 2"), floats), "shape [2, 2]");
   ExpectGridsRefused("a.npy", Npy(Dictionary("<f4", "2, 2, 3"), floats), "shape [2, 2, 3]");

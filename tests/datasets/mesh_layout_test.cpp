@@ -151,6 +151,21 @@ TEST(MeshLayout, InAnyOtherFolderEveryMeshIsAnObject) {
   EXPECT_EQ(FindMeshes(folder / "meshes").objects.at(1).origin.name, "mug.obj");
 }
 
+TEST(MeshLayout, GridsAmongMeshesAreSkippedAndReported) {
+  const TempFolder folder;
+  PutBox(folder / "both/mug.obj", 0.2);
+  WriteFileAtomic(folder / "both/grids.npz", "any");
+  ImportRequest request;
+  request.inputs = {(folder / "both").string()};
+  request.out = (folder / "set.h5").string();
+  request.report = (folder / "report.csv").string();
+  RunImport(request, nullptr);
+  const auto rows = shapes::CsvRows(request.report);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[1].at("path"), (folder / "both/grids.npz").string());
+  EXPECT_EQ(rows[1].at("detail"), "grids among meshes: import them by themselves");
+}
+
 TEST(MeshLayout, AnImportSaysTheLayoutAndReportsWhatWasSkipped) {
   const TempFolder folder;
   PutBox(folder / "ycb/001_a/google_16k/nontextured.ply", 0.2);

@@ -13,7 +13,7 @@ namespace antigrasp {
 namespace {
 
 constexpr LIB3MFRESULT kFine = 0;
-constexpr DWORD kMillimetre = 2;  // 3MF's order: micrometre, millimetre, centimetre, ...
+constexpr DWORD kMillimetre = 1;  // lib3mf counts from micrometre = 0
 
 struct FoundObject {
   std::string name;
