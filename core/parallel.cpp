@@ -12,10 +12,7 @@
 namespace antigrasp {
 
 // Processes of one job share a machine's.
-int HardwareThreads() {
-  static const int here = ProcessesHere();
-  return std::max(1, omp_get_num_procs() / here);
-}
+int HardwareThreads() { return std::max(1, omp_get_num_procs() / ProcessesHere()); }
 
 void ParallelFor(std::int64_t count, int threads, const std::function<void(std::int64_t)>& body,
                  const ProgressFn& progress) {

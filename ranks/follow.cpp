@@ -28,9 +28,6 @@ class Follower {
       case Order::kBeginEpisode:
         model_->BeginEpisode(static_cast<int>(heard.a), heard.b, heard.c != 0);
         break;
-      case Order::kBeginFixed:
-        model_->BeginFixedEpisode(static_cast<int>(heard.a), MixtureFromLeader(group_, {}));
-        break;
       case Order::kLoad:
         model_->Load(StateFromLeader(group_, {}), "rank 0");
         break;
@@ -113,6 +110,7 @@ void RunAsJob(int processes, const std::function<std::vector<std::string>()>& sa
   if (!ranks->group().leads()) return FollowRanks(&ranks->group(), make_judge);
   Leader leader(&ranks->group());
   run(leader.maker(), RankedScorer(&ranks->group()));
+  SayOfRank(ranks->group().SentText());
 }
 
 std::vector<std::string> SameForAll(const RunConfig& config) {

@@ -15,10 +15,6 @@
 namespace antigrasp {
 namespace {
 
-void Say(const std::string& line) {
-  std::fprintf(stderr, "%s: %s\n", Speaker().c_str(), line.c_str());
-}
-
 // The words that this program was called with.
 std::vector<std::string> OwnArguments() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
@@ -28,6 +24,10 @@ std::vector<std::string> OwnArguments() {
 }
 
 }  // namespace
+
+void SayOfRank(const std::string& line) {
+  std::fprintf(stderr, "%s: %s\n", Speaker().c_str(), line.c_str());
+}
 
 Ranks::Ranks(std::unique_ptr<SpawnedRanks> spawned, std::unique_ptr<RankGroup> group)
     : spawned_(std::move(spawned)), group_(std::move(group)) {}
@@ -47,7 +47,7 @@ std::unique_ptr<Ranks> JoinRanks(int processes,
   }
   JoinOptions options;
   options.same = same();
-  options.say = &Say;
+  options.say = &SayOfRank;
   options.pause = pause;
   std::unique_ptr<SpawnedRanks> spawned;
   if (!launch) {

@@ -21,6 +21,9 @@ class Ranks {
   std::unique_ptr<RankGroup> group_;
 };
 
+// A line to standard error that says which rank it is of.
+void SayOfRank(const std::string& line);
+
 // Joins the other processes of the job that the environment tells of, or starts `processes` - 1 of
 // them where it tells of none; nullptr: this process is alone. `same`: what all must have
 // (JoinOptions), asked for only then; `pause` is called while it waits and may throw Interrupted.

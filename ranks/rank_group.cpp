@@ -1,6 +1,7 @@
 #include "antigrasp/ranks/rank_group.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "antigrasp/core/error.h"
 
@@ -41,6 +42,13 @@ torch::Tensor EmptyLike(const torch::Tensor& outline) {
 void RankGroup::Count(std::int64_t bytes) {
   bytes_sent_ += bytes;
   ++messages_;
+}
+
+std::string RankGroup::SentText() const {
+  char text[80];
+  std::snprintf(text, sizeof text, "sent %.1f MB in %lld messages", 1e-6 * double(bytes_sent_),
+                static_cast<long long>(messages_));
+  return text;
 }
 
 torch::Tensor RankGroup::TensorFromLeader(const torch::Tensor& tensor) {

@@ -52,9 +52,8 @@ class RankGroup {
   virtual void Put(const std::string& name, const std::string& bytes) = 0;
   virtual std::string Wait(const std::string& name) = 0;
 
-  // What this rank has sent so far, to count what a step costs.
-  std::int64_t bytes_sent() const { return bytes_sent_; }
-  std::int64_t messages() const { return messages_; }
+  // "sent 12.3 MB in 456 messages": what a job costs the network, by this rank.
+  std::string SentText() const;
 
  protected:
   void Count(std::int64_t bytes);

@@ -62,11 +62,6 @@ NamedTensors StateFromLeader(RankGroup* group, const NamedTensors& state) {
   return told;
 }
 
-LatentMixture MixtureFromLeader(RankGroup* group, const LatentMixture& mixture) {
-  return {group->TensorFromLeader(mixture.weights), group->TensorFromLeader(mixture.means),
-          group->TensorFromLeader(mixture.deviations)};
-}
-
 torch::Tensor SampleTogether(RankGroup* group, ShapeModel* model, std::uint64_t seed,
                              std::int64_t first, std::int64_t count) {
   // Whole blocks from first on, but for the last: a part of one costs as much as all of it.

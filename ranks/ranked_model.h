@@ -26,7 +26,6 @@ class SharedBatch : public BatchShare {
 enum class Order : std::int64_t {
   kModel,         // + configuration: a fresh model
   kBeginEpisode,  // episode, iterations, restart
-  kBeginFixed,    // episode + mixture
   kLoad,          // + state
   kShapes,        // + training set
   kStep,
@@ -40,9 +39,8 @@ struct OrderHeader {
 };
 OrderHeader TellOrHear(RankGroup* group, const OrderHeader& header);  // rank 0 tells
 
-// A state or a mixture from rank 0; others hand in nothing.
+// A state from rank 0; others hand in nothing.
 NamedTensors StateFromLeader(RankGroup* group, const NamedTensors& state);
-LatentMixture MixtureFromLeader(RankGroup* group, const LatentMixture& mixture);
 
 // Samples first to first + count - 1, in blocks of AveragedGenerator that the ranks share.
 torch::Tensor SampleTogether(RankGroup* group, ShapeModel* model, std::uint64_t seed,

@@ -95,7 +95,7 @@ TEST(SharedBatch, PartsAreAnotherTrainingThanOnePiece) {
   EXPECT_TRUE(differ);
 }
 
-TEST(FromLeader, TextStatesAndMixturesArriveAsTheyWere) {
+TEST(FromLeader, TextStatesAndOrdersArriveAsTheyWere) {
   const NamedTensors state = {{"a/b", torch::arange(6).view({2, 3})}, {"c", torch::tensor(2.5)}};
   ThreadRanks(3).Run([&](RankGroup* group) {
     EXPECT_EQ(group->TextFromLeader(group->leads() ? std::string("x\0y", 3) : ""),
