@@ -11,7 +11,7 @@ PROGRAM = sys.argv[1]
 ROUNDS = int(sys.argv[2]) if len(sys.argv) > 2 else 3
 UPDATES = 8
 QUIET = ["run.torch_threads=1", "cem.episodes=0", "cem.control=false", "cem.prior_scored=16"]
-SCORING = ["--set", *QUIET, "cem.samples=2500", "cem.keep=200"]
+SCORING = ["--set", *QUIET, "prior.count=64", "cem.samples=2500", "cem.keep=200"]
 TRAINING = ["--from-scratch", "--set", *QUIET, "model.width=32", "model.width_d=16", "gan.micro_batches=4", "cem.samples=16", "cem.keep=8",
             "prior.count=64", f"cem.prior_iterations={UPDATES}"]
 # The ways: processes, threads each.
