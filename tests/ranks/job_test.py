@@ -125,7 +125,13 @@ def kills(folder):
             job[victim].kill()
             done += 1
         begin = time.monotonic()
-        codes = [process.wait() for process in job]
+        codes = []
+        for process in job:
+            try:
+                codes.append(process.wait(timeout=60))
+            except subprocess.TimeoutExpired:  # killed before all had met: the others wait for ten minutes
+                process.kill()
+                codes.append(process.wait())
         print(f"{done}: rank {victim} of {size} killed, the others ended after {time.monotonic() - begin:.1f} s: {codes}", flush=True)
         if not any(codes):
             assert done > 0, "the run ended before a kill"
