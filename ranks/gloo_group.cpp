@@ -25,6 +25,8 @@ constexpr std::chrono::seconds kSayEvery(10);
 // noticed by SignsOfLife.
 constexpr std::chrono::hours kLong(24);
 
+constexpr double kPartingSeconds = 10.0;
+
 double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -70,6 +72,12 @@ template <typename Work>
 auto ToOthers(const Work& work) {
   try {
     return work();
+  } catch (const InputError&) {  // ours
+    throw;
+  } catch (const RuntimeFailure&) {
+    throw;
+  } catch (const Interrupted&) {
+    throw;
   } catch (const c10::Error&) {
     throw RuntimeFailure("another process of the job is gone; what was saved stays");
   } catch (const std::runtime_error&) {
@@ -93,6 +101,7 @@ class GlooGroup : public RankGroup {
   StorePtr Prefixed(const Launch& launch, const StorePtr& store) const;
   void Meet(const JoinOptions& options);
   void Compare(const std::vector<std::string>& same);
+  void PartFromOthers();
   void ConnectAll(const Launch& launch);
 
   int rank_, size_;
@@ -109,10 +118,13 @@ GlooGroup::GlooGroup(const Launch& launch, const JoinOptions& options)
   at.port = tcp->getPort();
   if (serves && options.listening) options.listening(at.port);
   store_ = Prefixed(launch, tcp);
-  Meet(options);
-  Compare(options.same);
   life_ = std::make_unique<SignsOfLife>(Prefixed(launch, Connect(at, false, options)), rank_, size_,
                                         options.lost_after_seconds);
+  ToOthers([&] {
+    Meet(options);
+    Compare(options.same);
+    return true;
+  });
   ConnectAll(launch);
 }
 
@@ -172,8 +184,23 @@ void GlooGroup::Compare(const std::vector<std::string>& same) {
       const std::string found = text.substr(begin, text.find('\n', begin) - begin);
       return found.empty() ? std::string("nothing") : found.substr(0, 200);
     };
+    PartFromOthers();
     throw InputError("rank " + std::to_string(other) + " has " + line(theirs), "start of the job",
                      "what rank 0 has: " + line(leader));
+  }
+}
+
+// All have seen why the job ends before rank 0 ends with the store that they read it from.
+void GlooGroup::PartFromOthers() {
+  life_.reset();
+  const auto parted = [](int rank) { return "parted/" + std::to_string(rank); };
+  store_->set(parted(rank_), Bytes("1"));
+  if (rank_ != 0) return;
+  const auto start = Clock::now();
+  for (int other = 1; other < size_; ++other) {
+    while (!store_->check({parted(other)}) && Since(start) < kPartingSeconds) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
   }
 }
 

@@ -60,6 +60,10 @@ std::unique_ptr<Ranks> JoinRanks(int processes,
       arguments.push_back(nullptr);
       spawned->Start(port, arguments.data());
     };
+    options.pause = [&] {
+      if (pause) pause();
+      spawned->Check();
+    };
   }
   if (!launch->leads()) signal(SIGINT, SIG_IGN);
   std::unique_ptr<RankGroup> group = RankGroup::Join(*launch, options);

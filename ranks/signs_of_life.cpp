@@ -29,11 +29,10 @@ std::string BeatOf(int rank) { return "beat/" + std::to_string(rank); }
 
 SignsOfLife::SignsOfLife(c10::intrusive_ptr<c10d::Store> store, int rank, int size,
                          double lost_after_seconds)
-    : store_(std::move(store)),
-      rank_(rank),
-      size_(size),
-      lost_after_(lost_after_seconds),
-      thread_([this] { Run(); }) {}
+    : store_(std::move(store)), rank_(rank), size_(size), lost_after_(lost_after_seconds) {
+  store_->add(BeatOf(rank_), 1);  // from here on it is missed
+  thread_ = std::thread([this] { Run(); });
+}
 
 SignsOfLife::~SignsOfLife() {
   stop_ = true;
@@ -52,7 +51,8 @@ void SignsOfLife::Run() {
       for (int other = 0; other < size_; ++other) {
         Seen& last = seen[static_cast<std::size_t>(other)];
         const std::int64_t beats = store_->add(BeatOf(other), 0);
-        if (beats != last.beats || beats >= kGoodbye) last = {beats, Clock::now()};
+        const bool unheard = beats == 0;
+        if (beats != last.beats || unheard || beats >= kGoodbye) last = {beats, Clock::now()};
         const std::chrono::duration<double> silent = Clock::now() - last.when;
         if (silent.count() > lost_after_) {
           End("rank " + std::to_string(other) + " is gone: no sign of it for " +

@@ -11,7 +11,8 @@ namespace antigrasp {
 
 // Tells the other ranks every second that this one lives, and ends this process (exit code 1) when
 // one of them has been silent for too long or rank 0's store is gone: whoever waits for a dead one
-// would wait for ever. What a run has saved stays.
+// would wait for ever. One that has never been heard of is not missed: it may be on its way. What a
+// run has saved stays.
 class SignsOfLife {
  public:
   // `store`: a connection of its own, which nobody else uses.

@@ -47,6 +47,17 @@ void SpawnedRanks::Start(std::uint16_t port, char** arguments) {
   setenv("RANK", "0", 1);
 }
 
+void SpawnedRanks::Check() {
+  for (std::size_t i = 0; i < ranks_.size(); ++i) {
+    // Left to be waited for by the destructor.
+    siginfo_t ended{};
+    const auto id = static_cast<id_t>(ranks_[i]);
+    if (waitid(P_PID, id, &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid != 0) {
+      throw RuntimeFailure("rank " + std::to_string(i + 1) + " ended before the work began");
+    }
+  }
+}
+
 SpawnedRanks::~SpawnedRanks() {
   const auto start = std::chrono::steady_clock::now();
   for (const pid_t rank : ranks_) {

@@ -19,6 +19,8 @@ class SpawnedRanks {
   // Starts them: this program with these arguments, told where rank 0 listens. They do not hear
   // Ctrl-C. RuntimeFailure where no process can be made.
   void Start(std::uint16_t port, char** arguments);
+  // RuntimeFailure where one of them has ended.
+  void Check();
 
  private:
   int processes_;

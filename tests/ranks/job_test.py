@@ -13,7 +13,8 @@ import sys
 import tempfile
 import time
 
-PROGRAM, CONFIG, CASE = sys.argv[1:]
+PROGRAM, CONFIG = (os.path.abspath(name) for name in sys.argv[1:3])
+CASE = sys.argv[3]
 SETTINGS = ["--set", "run.torch_threads=1", "run.threads=1", "gan.micro_batches=4", "cem.episodes=1", "cem.control=false",
             "cem.prior_iterations=20"]
 # The time of day, versions and durations.
@@ -129,7 +130,7 @@ def kills(folder):
         for process in job:
             try:
                 codes.append(process.wait(timeout=60))
-            except subprocess.TimeoutExpired:  # killed before all had met: the others wait for ten minutes
+            except subprocess.TimeoutExpired:  # killed before anybody had heard of it: the others wait for ten minutes
                 process.kill()
                 codes.append(process.wait())
         print(f"{done}: rank {victim} of {size} killed, the others ended after {time.monotonic() - begin:.1f} s: {codes}", flush=True)
@@ -139,6 +140,15 @@ def kills(folder):
     subprocess.run([PROGRAM, "train", "--resume", str(out)], check=True, env=environment(), capture_output=True)
     expect_equal(one, out)
     print(f"{done} kills; the files are those of an undisturbed run")
+
+
+def killed_at_the_door(folder):
+    """Rank 1 of 3 is killed while it waits for rank 2: rank 0 does not wait for ever."""
+    job = ranks(folder, 2, lambda rank: call(folder / "never"), WORLD_SIZE=3)
+    time.sleep(3)
+    job[1].kill()
+    text = job[0].communicate(timeout=60)[1]
+    assert job[0].returncode == 1 and "rank 1 is gone" in text, text
 
 
 def other_settings(folder):
@@ -167,5 +177,6 @@ def interrupted(folder):
 
 
 with tempfile.TemporaryDirectory() as temporary:
-    {f.__name__: f for f in (processes, by_environment, mpirun, torchrun, killed, kills, other_settings, interrupted)}[CASE](
+    {f.__name__: f for f in (processes, by_environment, mpirun, torchrun, killed, kills, killed_at_the_door,
+                                other_settings, interrupted)}[CASE](
         pathlib.Path(temporary))
