@@ -35,7 +35,7 @@ class Follower {
         shapes_ = group_->TensorFromLeader({}).to(model_->device());
         break;
       case Order::kStep:
-        model_->Step(shapes_);
+        if (group_->rank() < config_.gan.micro_batches) model_->Step(shapes_);
         break;
       case Order::kSample:
         SampleTogether(group_, model_.get(), static_cast<std::uint64_t>(heard.a), heard.b, heard.c);
@@ -93,7 +93,7 @@ ShapeModelMaker Leader::maker() {
     std::unique_ptr<ShapeModel> model = SharingGan(config, share_.get());  // refuses first
     TellOrHear(group_, {Order::kModel});
     group_->TextFromLeader(ToToml(config));
-    return std::make_unique<RankedModel>(std::move(model), group_, config.gan.micro_batches > 0);
+    return std::make_unique<RankedModel>(std::move(model), group_, config.gan.micro_batches);
   };
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <exception>
+#include <map>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -91,7 +92,7 @@ class GlooGroup : public RankGroup {
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
-  std::vector<torch::Tensor> All(const torch::Tensor& mine) override;
+  std::vector<torch::Tensor> AllOfFirst(int ranks, const torch::Tensor& mine) override;
   void FromLeader(torch::Tensor* tensor) override;
   std::int64_t TakeNext(const std::string& counter, std::int64_t count) override;
   void Put(const std::string& name, const std::string& bytes) override;
@@ -103,11 +104,14 @@ class GlooGroup : public RankGroup {
   void Compare(const std::vector<std::string>& same);
   void PartFromOthers();
   void ConnectAll(const Launch& launch);
+  c10d::ProcessGroupGloo* First(int ranks);
 
   int rank_, size_;
   StorePtr store_;
   std::unique_ptr<SignsOfLife> life_;
-  c10::intrusive_ptr<c10d::ProcessGroupGloo> gloo_;
+  c10::intrusive_ptr<c10d::ProcessGroupGloo::Options> options_;
+  // By the number of ranks; the whole group from the beginning, others when they are asked for.
+  std::map<int, c10::intrusive_ptr<c10d::ProcessGroupGloo>> first_;
 };
 
 GlooGroup::GlooGroup(const Launch& launch, const JoinOptions& options)
@@ -205,19 +209,19 @@ void GlooGroup::PartFromOthers() {
 }
 
 void GlooGroup::ConnectAll(const Launch& launch) {
-  const auto options = c10d::ProcessGroupGloo::Options::create(
+  options_ = c10d::ProcessGroupGloo::Options::create(
       std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::minutes(2)));
   const char* interface = std::getenv("GLOO_SOCKET_IFNAME");
   try {
     if (interface != nullptr && *interface != '\0') {
-      options->devices.push_back(c10d::ProcessGroupGloo::createDeviceForInterface(interface));
+      options_->devices.push_back(c10d::ProcessGroupGloo::createDeviceForInterface(interface));
     } else if (launch.local == launch.size || launch.host == "127.0.0.1" ||
                launch.host == "localhost") {
-      options->devices.push_back(c10d::ProcessGroupGloo::createDeviceForHostname("127.0.0.1"));
+      options_->devices.push_back(c10d::ProcessGroupGloo::createDeviceForHostname("127.0.0.1"));
     } else {
-      options->devices.push_back(c10d::ProcessGroupGloo::createDefaultDevice());
+      options_->devices.push_back(c10d::ProcessGroupGloo::createDefaultDevice());
     }
-    gloo_ = c10::make_intrusive<c10d::ProcessGroupGloo>(store_, rank_, size_, options);
+    First(size_);
   } catch (const std::exception& error) {
     throw RuntimeFailure("the ranks do not reach each other (" +
                          std::string(error.what()).substr(0, 120) +
@@ -225,14 +229,24 @@ void GlooGroup::ConnectAll(const Launch& launch) {
   }
 }
 
-std::vector<torch::Tensor> GlooGroup::All(const torch::Tensor& mine) {
+c10d::ProcessGroupGloo* GlooGroup::First(int ranks) {
+  auto& group = first_[ranks];
+  if (!group) {
+    const auto store =
+        c10::make_intrusive<c10d::PrefixStore>("first" + std::to_string(ranks), store_);
+    group = c10::make_intrusive<c10d::ProcessGroupGloo>(store, rank_, ranks, options_);
+  }
+  return group.get();
+}
+
+std::vector<torch::Tensor> GlooGroup::AllOfFirst(int ranks, const torch::Tensor& mine) {
   std::vector<torch::Tensor> in = {mine.contiguous()};
   std::vector<std::vector<torch::Tensor>> out(1);
-  for (int r = 0; r < size_; ++r) out[0].push_back(torch::empty_like(in[0]));
+  for (int r = 0; r < ranks; ++r) out[0].push_back(torch::empty_like(in[0]));
   c10d::AllgatherOptions options;
   options.timeout = kLong;
-  ToOthers([&] { return gloo_->allgather(out, in, options)->wait(); });
-  Count(static_cast<std::int64_t>(in[0].nbytes()) * (size_ - 1));
+  ToOthers([&] { return First(ranks)->allgather(out, in, options)->wait(); });
+  Count(static_cast<std::int64_t>(in[0].nbytes()) * (ranks - 1));
   return out[0];
 }
 
@@ -241,7 +255,7 @@ void GlooGroup::FromLeader(torch::Tensor* tensor) {
   c10d::BroadcastOptions options;
   options.rootRank = 0;
   options.timeout = kLong;
-  ToOthers([&] { return gloo_->broadcast(tensors, options)->wait(); });
+  ToOthers([&] { return First(size_)->broadcast(tensors, options)->wait(); });
   if (leads()) Count(static_cast<std::int64_t>(tensor->nbytes()) * (size_ - 1));
 }
 

@@ -39,7 +39,9 @@ class RankGroup {
   bool leads() const { return rank() == 0; }
 
   // mine: of one shape and type on all ranks, on the CPU. Rank r's is item r.
-  virtual std::vector<torch::Tensor> All(const torch::Tensor& mine) = 0;
+  std::vector<torch::Tensor> All(const torch::Tensor& mine) { return AllOfFirst(size(), mine); }
+  // The same among ranks 0 to ranks - 1, which alone call it.
+  virtual std::vector<torch::Tensor> AllOfFirst(int ranks, const torch::Tensor& mine) = 0;
   // Rank 0's tensor, on all ranks; others hand in one of the same shape and type to be filled.
   virtual void FromLeader(torch::Tensor* tensor) = 0;
   std::string TextFromLeader(const std::string& text);  // any bytes

@@ -16,11 +16,12 @@ constexpr std::int64_t kMostTensors = 10000;
 
 torch::Tensor SharedBatch::SumInOrder(const torch::Tensor& rows, std::int64_t parts) {
   const torch::NoGradGuard no_grad;
-  const std::int64_t n = size(), each = (parts + n - 1) / n;
+  const std::int64_t n = std::min<std::int64_t>(size(), parts), each = (parts + n - 1) / n;
+  AG_CHECK(rank() < n, "ranks without a part do not train");
   // Ranks with a part less send a row that nobody reads.
   torch::Tensor padded = torch::zeros({each, rows.size(1)});
   padded.slice(0, 0, rows.size(0)).copy_(rows);
-  const std::vector<torch::Tensor> all = group_->All(padded);
+  const std::vector<torch::Tensor> all = group_->AllOfFirst(static_cast<int>(n), padded);
   torch::Tensor sum;
   for (std::int64_t part = 0; part < parts; ++part) {
     const torch::Tensor row = all[static_cast<std::size_t>(part % n)][part / n];
@@ -76,28 +77,28 @@ torch::Tensor SampleTogether(RankGroup* group, ShapeModel* model, std::uint64_t 
   return torch::cat(group->All(padded)).slice(0, 0, count).clone();
 }
 
-RankedModel::RankedModel(std::unique_ptr<ShapeModel> model, RankGroup* group, bool shares_batches)
-    : model_(std::move(model)), group_(group), shares_batches_(shares_batches) {
+RankedModel::RankedModel(std::unique_ptr<ShapeModel> model, RankGroup* group, std::int64_t parts)
+    : model_(std::move(model)), group_(group), parts_(parts) {
   AG_CHECK(group_->leads(), "rank 0 leads");
 }
 
 void RankedModel::BeginEpisode(int episode, std::int64_t iterations, bool restart) {
-  if (shares_batches_) {
-    TellState();
+  if (shares_batches()) {
+    TellState(Know::kTrainers);
     TellOrHear(group_, {Order::kBeginEpisode, episode, iterations, restart ? 1 : 0});
   }
   model_->BeginEpisode(episode, iterations, restart);
-  others_know_ = shares_batches_;
+  know_ = AfterTraining();
 }
 
 void RankedModel::BeginFixedEpisode(int episode, const LatentMixture& latent) {
   model_->BeginFixedEpisode(episode, latent);
-  others_know_ = false;
+  know_ = Know::kNobody;
 }
 
 void RankedModel::Step(const torch::Tensor& shapes) {
-  if (shares_batches_) {
-    TellState();
+  if (shares_batches()) {
+    TellState(Know::kTrainers);
     if (!told_.defined() || !told_.is_same(shapes)) {
       TellOrHear(group_, {Order::kShapes});
       group_->TensorFromLeader(shapes);
@@ -106,11 +107,11 @@ void RankedModel::Step(const torch::Tensor& shapes) {
     TellOrHear(group_, {Order::kStep});
   }
   model_->Step(shapes);
-  others_know_ = shares_batches_;
+  know_ = AfterTraining();
 }
 
 torch::Tensor RankedModel::Sample(std::uint64_t seed, std::int64_t first, std::int64_t count) {
-  TellState();
+  TellState(Know::kAll);
   TellOrHear(group_, {Order::kSample, static_cast<std::int64_t>(seed), first, count});
   return SampleTogether(group_, model_.get(), seed, first, count);
 }
@@ -122,20 +123,25 @@ torch::Tensor RankedModel::Latents(std::uint64_t seed, std::int64_t first,
 
 void RankedModel::Load(const NamedTensors& state, const std::string& origin) {
   model_->Load(state, origin);
-  others_know_ = false;
+  know_ = Know::kNobody;
 }
 
 void RankedModel::LoadNetworks(const NamedTensors& state, const std::string& origin) {
   model_->LoadNetworks(state, origin);
-  others_know_ = false;
+  know_ = Know::kNobody;
 }
 
-// The others take the whole state where they have not made it themselves.
-void RankedModel::TellState() {
-  if (others_know_) return;
+// All take the whole state where not enough of them have made it themselves.
+void RankedModel::TellState(Know enough) {
+  if (know_ >= enough) return;
   TellOrHear(group_, {Order::kLoad});
   StateFromLeader(group_, model_->State());
-  others_know_ = true;
+  know_ = Know::kAll;
+}
+
+RankedModel::Know RankedModel::AfterTraining() const {
+  if (!shares_batches()) return Know::kNobody;
+  return group_->size() <= parts_ ? Know::kAll : Know::kTrainers;
 }
 
 }  // namespace antigrasp

@@ -10,7 +10,8 @@
 namespace antigrasp {
 
 // Parts of a batch over the ranks of a group: every rank gathers the rows of all and adds them in
-// the order of the parts. Bytes sent an update: about 4 (parts / n) P (n - 1) a rank.
+// the order of the parts. Ranks beyond the number of parts have none and do not train. Bytes sent
+// an update, n <= parts: about 4 (parts / n) P (n - 1) a rank.
 class SharedBatch : public BatchShare {
  public:
   explicit SharedBatch(RankGroup* group) : group_(group) {}
@@ -47,11 +48,12 @@ torch::Tensor SampleTogether(RankGroup* group, ShapeModel* model, std::uint64_t 
                              std::int64_t first, std::int64_t count);
 
 // The model of rank 0, whose calls the models of the other ranks repeat (FollowRanks). Where
-// batches are not shared (gan.micro_batches = 0), rank 0 trains alone, and the others take its
-// state before they sample.
+// batches are not shared (gan.micro_batches = 0), rank 0 trains alone; those that have not trained
+// take the state before they sample.
 class RankedModel : public ShapeModel {
  public:
-  RankedModel(std::unique_ptr<ShapeModel> model, RankGroup* group, bool shares_batches);
+  // parts: gan.micro_batches.
+  RankedModel(std::unique_ptr<ShapeModel> model, RankGroup* group, std::int64_t parts);
 
   void BeginEpisode(int episode, std::int64_t iterations, bool restart) override;
   void BeginFixedEpisode(int episode, const LatentMixture& latent) override;
@@ -71,13 +73,17 @@ class RankedModel : public ShapeModel {
   void LoadNetworks(const NamedTensors& state, const std::string& origin) override;
 
  private:
-  void TellState();
+  // Who has the state of this model.
+  enum class Know { kNobody, kTrainers, kAll };
+  bool shares_batches() const { return parts_ > 0; }
+  void TellState(Know enough);
+  Know AfterTraining() const;
 
   std::unique_ptr<ShapeModel> model_;
   RankGroup* group_;
-  bool shares_batches_;
-  bool others_know_ = false;  // the state of this model
-  torch::Tensor told_;        // the training set that the others have
+  std::int64_t parts_;
+  Know know_ = Know::kNobody;
+  torch::Tensor told_;  // the training set that the others have
 };
 
 }  // namespace antigrasp

@@ -36,11 +36,12 @@ class ThreadRanks {
     Member(ThreadRanks* all, int rank) : all_(all), rank_(rank) {}
     int rank() const override { return rank_; }
     int size() const override { return all_->size_; }
-    std::vector<torch::Tensor> All(const torch::Tensor& mine) override {
-      return all_->Exchange(rank_, mine.clone());
+    std::vector<torch::Tensor> AllOfFirst(int ranks, const torch::Tensor& mine) override {
+      return all_->Exchange(rank_, mine.clone(), ranks);
     }
     void FromLeader(torch::Tensor* tensor) override {
-      *tensor = all_->Exchange(rank_, leads() ? tensor->clone() : torch::Tensor())[0].clone();
+      *tensor =
+          all_->Exchange(rank_, leads() ? tensor->clone() : torch::Tensor(), size())[0].clone();
     }
     std::int64_t TakeNext(const std::string& counter, std::int64_t count) override {
       const std::lock_guard<std::mutex> lock(all_->mutex_);
@@ -64,13 +65,14 @@ class ThreadRanks {
     int rank_;
   };
 
-  // Everybody's tensor, when all have come; the next round begins when all have left.
-  std::vector<torch::Tensor> Exchange(int rank, const torch::Tensor& mine) {
+  // Everybody's tensor of the first `ranks`, when all of them have come; the next round begins when
+  // all have left.
+  std::vector<torch::Tensor> Exchange(int rank, const torch::Tensor& mine, int ranks) {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [&] { return leaving_ == 0; });
     given_[static_cast<std::size_t>(rank)] = mine;
-    if (++come_ == size_) {
-      leaving_ = size_;
+    if (++come_ == ranks) {
+      leaving_ = ranks;
       come_ = 0;
       changed_.notify_all();
     }
