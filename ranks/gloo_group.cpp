@@ -93,6 +93,7 @@ class GlooGroup : public RankGroup {
   int rank() const override { return rank_; }
   int size() const override { return size_; }
   std::vector<torch::Tensor> AllOfFirst(int ranks, const torch::Tensor& mine) override;
+  torch::Tensor ToEachOfFirst(int ranks, const torch::Tensor& slices) override;
   void FromLeader(torch::Tensor* tensor) override;
   std::int64_t TakeNext(const std::string& counter, std::int64_t count) override;
   void Put(const std::string& name, const std::string& bytes) override;
@@ -248,6 +249,16 @@ std::vector<torch::Tensor> GlooGroup::AllOfFirst(int ranks, const torch::Tensor&
   ToOthers([&] { return First(ranks)->allgather(out, in, options)->wait(); });
   Count(static_cast<std::int64_t>(in[0].nbytes()) * (ranks - 1));
   return out[0];
+}
+
+torch::Tensor GlooGroup::ToEachOfFirst(int ranks, const torch::Tensor& slices) {
+  torch::Tensor in = slices.contiguous(), out = torch::empty_like(in);
+  std::vector<std::int64_t> equal;
+  c10d::AllToAllOptions options;
+  options.timeout = kLong;
+  ToOthers([&] { return First(ranks)->alltoall_base(out, in, equal, equal, options)->wait(); });
+  Count(static_cast<std::int64_t>(in.nbytes()) * (ranks - 1) / ranks);
+  return out;
 }
 
 void GlooGroup::FromLeader(torch::Tensor* tensor) {

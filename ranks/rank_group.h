@@ -42,6 +42,9 @@ class RankGroup {
   std::vector<torch::Tensor> All(const torch::Tensor& mine) { return AllOfFirst(size(), mine); }
   // The same among ranks 0 to ranks - 1, which alone call it.
   virtual std::vector<torch::Tensor> AllOfFirst(int ranks, const torch::Tensor& mine) = 0;
+  // slices: [ranks, ...], item r for rank r; what comes back has what rank r sent as item r. Among
+  // ranks 0 to ranks - 1, which alone call it.
+  virtual torch::Tensor ToEachOfFirst(int ranks, const torch::Tensor& slices) = 0;
   // Rank 0's tensor, on all ranks; others hand in one of the same shape and type to be filled.
   virtual void FromLeader(torch::Tensor* tensor) = 0;
   std::string TextFromLeader(const std::string& text);  // any bytes

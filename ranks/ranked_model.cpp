@@ -18,20 +18,16 @@ torch::Tensor SharedBatch::SumInOrder(const torch::Tensor& rows, std::int64_t pa
   const torch::NoGradGuard no_grad;
   const std::int64_t n = std::min<std::int64_t>(size(), parts), each = (parts + n - 1) / n;
   AG_CHECK(rank() < n, "ranks without a part do not train");
+  const std::int64_t numbers = rows.size(1), slice = (numbers + n - 1) / n;
   // Ranks with a part less send a row that nobody reads.
-  torch::Tensor padded = torch::zeros({each, rows.size(1)});
-  padded.slice(0, 0, rows.size(0)).copy_(rows);
-  const std::vector<torch::Tensor> all = group_->AllOfFirst(static_cast<int>(n), padded);
-  torch::Tensor sum;
-  for (std::int64_t part = 0; part < parts; ++part) {
-    const torch::Tensor row = all[static_cast<std::size_t>(part % n)][part / n];
-    if (part == 0) {
-      sum = row.clone();
-    } else {
-      sum.add_(row);
-    }
-  }
-  return sum;
+  torch::Tensor padded = torch::zeros({each, n * slice});
+  padded.slice(0, 0, rows.size(0)).slice(1, 0, numbers).copy_(rows);
+  const int ranks = static_cast<int>(n);
+  const torch::Tensor own =  // [n, each, slice]
+      group_->ToEachOfFirst(ranks, padded.view({each, n, slice}).transpose(0, 1));
+  torch::Tensor sum = own[0][0].clone();
+  for (std::int64_t part = 1; part < parts; ++part) sum.add_(own[part % n][part / n]);
+  return torch::cat(group_->AllOfFirst(ranks, sum)).slice(0, 0, numbers);
 }
 
 OrderHeader TellOrHear(RankGroup* group, const OrderHeader& header) {

@@ -9,9 +9,10 @@
 
 namespace antigrasp {
 
-// Parts of a batch over the ranks of a group: every rank gathers the rows of all and adds them in
-// the order of the parts. Ranks beyond the number of parts have none and do not train. Bytes sent
-// an update, n <= parts: about 4 (parts / n) P (n - 1) a rank.
+// Parts of a batch over the n ranks of a group: each adds a slice of all rows in the order of the
+// parts, and all gather the slices. Bytes sent a sum of P numbers: 4 P (n - 1) / n (parts / n + 1)
+// a rank; with a part a rank as many as plain all-reduce. Ranks beyond the number of parts have
+// none and do not train.
 class SharedBatch : public BatchShare {
  public:
   explicit SharedBatch(RankGroup* group) : group_(group) {}

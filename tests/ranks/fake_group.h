@@ -39,6 +39,12 @@ class ThreadRanks {
     std::vector<torch::Tensor> AllOfFirst(int ranks, const torch::Tensor& mine) override {
       return all_->Exchange(rank_, mine.clone(), ranks);
     }
+    torch::Tensor ToEachOfFirst(int ranks, const torch::Tensor& slices) override {
+      std::vector<torch::Tensor> mine;
+      const std::vector<torch::Tensor> all = all_->Exchange(rank_, slices.clone(), ranks);
+      for (int r = 0; r < ranks; ++r) mine.push_back(all[static_cast<std::size_t>(r)][rank_]);
+      return torch::stack(mine);
+    }
     void FromLeader(torch::Tensor* tensor) override {
       *tensor =
           all_->Exchange(rank_, leads() ? tensor->clone() : torch::Tensor(), size())[0].clone();
