@@ -2,7 +2,9 @@
 #include <torch/types.h>
 #include <torch/utils.h>
 
+#include <limits>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "antigrasp/core/error.h"
@@ -88,6 +90,33 @@ TEST(SharedBatch, TrainersOfAnyNumberOfRanksHaveTheStateOfOneAlone) {
     });
     for (const NamedTensors& state : states) ExpectEqual(state, alone);
   }
+}
+
+// What stops this rank, and at which step.
+std::string Divergence(BatchShare* share, const torch::Tensor& shapes) {
+  GanTrainer trainer(SmallModel(), InParts(4), 5, torch::kCPU);
+  if (share != nullptr) trainer.ShareBatches(share);
+  trainer.BeginEpisode(0, 100, false);
+  for (int step = 0; step < 100; ++step) {
+    try {
+      trainer.Step(shapes);
+    } catch (const RuntimeFailure& failure) {
+      return failure.what();
+    }
+  }
+  return "nothing";
+}
+
+TEST(SharedBatch, ALossThatIsNotFiniteInOnePartStopsAllRanksAtTheSameStep) {
+  // One shape of 64 is spoilt: a batch of 8 has it now and then, in one of its four parts.
+  torch::Tensor shapes = torch::zeros({64, 1, 32, 32, 32}, torch::kHalf);
+  shapes[63] = std::numeric_limits<float>::quiet_NaN();
+  const std::string alone = Divergence(nullptr, shapes);
+  EXPECT_NE(alone.find("is not finite at step"), std::string::npos) << alone;
+  ThreadRanks(4).Run([&](RankGroup* group) {
+    SharedBatch share(group);
+    EXPECT_EQ(Divergence(&share, shapes), alone) << "rank " << group->rank();
+  });
 }
 
 TEST(SharedBatch, PartsAreAnotherTrainingThanOnePiece) {
