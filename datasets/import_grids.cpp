@@ -93,7 +93,9 @@ GridItem ReadGridItem(const ShapeSetReader& file, int number, std::string path) 
     refuse("values that are no numbers");
   } else if (BorderInside(item.grid) > 0.5) {
     refuse("inside at the border: another --sign?");
-  } else if (const RemeshStatus status = Remesh(item.grid).status; status != RemeshStatus::kOk) {
+  } else if (const RemeshStatus status = Remesh(item.grid).status; status == RemeshStatus::kEmpty) {
+    refuse("no surface: outside everywhere");
+  } else if (status != RemeshStatus::kOk) {
     item.report.detail = "no solid: " + std::string(Name(status));
   }
   return item;

@@ -17,6 +17,16 @@ void RequireNoMeaning(const ImportRequest& request) {
   throw InputError(sign ? "--sign" : "--spacing", request.inputs[0], "grids: meshes have none");
 }
 
+// Grids are taken as they are.
+void RequireNoScaling(const ImportRequest& request, const std::filesystem::path& file) {
+  const ImportOptions unasked;
+  const char* asked = nullptr;
+  if (request.options.resolution != unasked.resolution) asked = "--resolution";
+  if (request.options.scale != unasked.scale) asked = "--scale";
+  if (request.options.units != unasked.units) asked = "--units";
+  if (asked != nullptr) throw InputError(asked, file.string(), "meshes: grids keep their own");
+}
+
 }  // namespace
 
 std::string RunImport(const ImportRequest& request, const ProgressFn& progress) {
@@ -34,6 +44,7 @@ std::string RunImport(const ImportRequest& request, const ProgressFn& progress) 
     if (!request.report.empty()) ObjectSource(request.inputs).RequireNotRead({request.report});
     reports = ImportMeshes(inputs, request.out, request.options, progress, &layouts);
   } else {
+    RequireNoScaling(request, grids[0]);
     for (const std::filesystem::path& file : grids) RequireNotRead(file, {request.report});
     resolution = ShapeSetReader(grids[0], request.meaning).info().n;
     reports = ImportGrids(grids, request.out, request.meaning, request.options.threads, progress);

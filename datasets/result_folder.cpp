@@ -120,6 +120,12 @@ void ResultFolder::Commit(std::string_view rest_of_table) {
     if (error) throw RuntimeFailure("cannot remove " + old.string() + ": " + error.message());
   }
   staged_.Commit(table_);
+  for (const fs::path& old : old_) {
+    std::error_code full;  // a folder that still holds something stays
+    for (fs::path place = old.parent_path(); place != folder_ && fs::remove(place, full);) {
+      place = place.parent_path();
+    }
+  }
 }
 
 }  // namespace antigrasp

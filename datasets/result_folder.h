@@ -24,8 +24,9 @@ struct ResultFiles {
 
 // One rule for every command that fills a folder. It is used when it holds the command's table or
 // anything that the call could write, and then refused, unless it may be overwritten: then these
-// files, and those that the table names, give way to the new ones. Other files stay. Nothing
-// changes before Commit(): a call that fails or is killed leaves what was there.
+// files, and those that the table names, give way to the new ones, with the folders that only they
+// filled. Other files stay. Nothing changes before Commit(): a call that fails or is killed leaves
+// what was there.
 class ResultFolder {
  public:
   // Makes the folder where it is missing. InputError for a used one, for one that cannot be written

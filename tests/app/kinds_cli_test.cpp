@@ -39,6 +39,11 @@ TEST(KindsCli, AFileOfAnotherKindIsNamedAsWhatItIs) {
   ExpectRefused("dataset import " + sdf + " " + mesh + out + "i.h5", "meshes alone or grids alone");
   ExpectRefused("dataset import " + mesh + " --sign negative-inside" + out + "i.h5",
                 "--sign (" + mesh + "): expected grids: meshes have none");
+  for (const std::string option : {"--scale each", "--resolution 48", "--units mm"}) {
+    ExpectRefused("dataset import " + sdf + " " + option + out + "i.h5",
+                  option.substr(0, option.find(' ')) + " (" + sdf +
+                      "): expected meshes: grids keep their own");
+  }
   ExpectRefused("remesh " + mesh + out + "m", "is a mesh, not an SDF file (");
   ExpectRefused("remesh " + table + out + "m", is_table + "an SDF file (");
   ExpectRefused("quality " + mesh, "is a mesh, not a table (");

@@ -9,6 +9,7 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/rng.h"
 #include "antigrasp/datasets/grid_check.h"
+#include "antigrasp/datasets/import_grids.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "tests/support/temp_folder.h"
 
@@ -179,6 +180,23 @@ TEST(ForeignGrids, OtherSignsAreStatedAndChecked) {
               const ShapeSetReader wrong(folder / "ours.npy", {GridSign::kNegativeInside, 0.0});
             }).find("--sign positive-inside"),
             std::string::npos);
+}
+
+TEST(ForeignGrids, AGridWithoutASurfaceIsRefusedByNameAndOthersAreTaken) {
+  const TempFolder folder;
+  SdfGrid nothing = BallGrid(8, 0.3);
+  for (float& value : nothing.values) value = -0.1F;
+  const auto both = folder / "both.npz", empty = folder / "empty.npz";
+  WriteShapeSet(both,
+                {.kind = "x", .names = {"ball", "air"}, .grids = {BallGrid(8, 0.3), nothing}});
+  WriteShapeSet(empty, {.kind = "x", .names = {"air"}, .grids = {nothing}});
+  const std::vector<ImportedMesh> reports = ImportGrids({both}, folder / "out.h5", {}, 1);
+  EXPECT_EQ(reports[0].status, "accepted");
+  EXPECT_EQ(reports[1].status, "refused");
+  EXPECT_EQ(reports[1].detail, "no surface: outside everywhere");
+  EXPECT_EQ(ReadShapeSet(folder / "out.h5").names, std::vector<std::string>{"ball"});
+  EXPECT_THROW(ImportGrids({empty}, folder / "none.h5", {}, 1), InputError);
+  EXPECT_FALSE(fs::exists(folder / "none.h5"));
 }
 
 TEST(ForeignGrids, AFileThatSaysItsSignTakesNoOther) {

@@ -119,6 +119,17 @@ TEST(ResultFolder, WhatTheTableNamesGivesWayAndOtherFilesStay) {
   EXPECT_EQ(ReadFile(folder / "out/table.csv"), "object\nmug.obj\n");
 }
 
+TEST(ResultFolder, FoldersThatOnlyOldFilesFilledGoWithThem) {
+  const TempFolder folder;
+  Fill(folder, Objects(folder), "old");
+  fs::create_directory(folder / "out/mine");
+  ResultFolder results(folder / "out", kFiles, Objects(folder), true);
+  results.Commit("object\nmug.obj\n");
+  EXPECT_FALSE(fs::exists(folder / "out/after"));
+  EXPECT_TRUE(fs::exists(folder / "out/mine")) << "of somebody else";
+  EXPECT_TRUE(fs::exists(folder / "out/table.csv"));
+}
+
 // The table says in which format an earlier call wrote; of another format a file is somebody's own.
 TEST(ResultFolder, AColumnOfFilesIsTakenAtItsWordAndReachesIntoNoOtherFolder) {
   const TempFolder folder;
