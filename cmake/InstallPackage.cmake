@@ -1,6 +1,6 @@
-# `cmake --install` puts the libraries where find_package(antigrasp) finds them, in two components: `quality`, the
-# metric and what it stands on, without LibTorch; `train`, the episode loop, its models and the networks that ship
-# (find_package(antigrasp COMPONENTS train); needs `quality` beside it).
+# `cmake --install` puts the libraries where find_package(antigrasp) finds them, in components: `quality`, the
+# metric and what it stands on, without LibTorch; `train`, the episode loop and its models
+# (find_package(antigrasp COMPONENTS train); needs `quality` beside it). `networks` are those that ship.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/antigrasp)

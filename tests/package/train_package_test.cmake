@@ -18,6 +18,7 @@ if(code EQUAL 0 OR NOT text MATCHES "train")
   message(FATAL_ERROR "the component train is found before it is installed: ${text}")
 endif()
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --component train)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --component networks)
 run(${configure})
 run(${CMAKE_COMMAND} --build ${work}/build)
 
