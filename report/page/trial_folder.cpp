@@ -12,6 +12,7 @@
 
 #include "antigrasp/core/csv_reader.h"
 #include "antigrasp/core/error.h"
+#include "antigrasp/datasets/object_names.h"
 #include "antigrasp/report/page/replay_file.h"
 
 namespace antigrasp {
@@ -119,12 +120,14 @@ void ReadExecutions(const fs::path& path, TrialsByObject* trials) {
   }
 }
 
-// By its name; a perturbed object is named after its original, and its trials after the file that
-// it was written to.
+// By its name; a perturbed object is named after its original ("jug.obj"), and its trials after the
+// file that it was written to ("jug.stl").
 TrialsByObject::const_iterator TrialsOf(const std::string& name, const TrialsByObject& trials) {
   auto found = trials.find(name);
-  for (const char* extension : {".stl", ".ply"}) {
-    if (found == trials.end()) found = trials.find(name + extension);
+  for (const std::string& written : {name, FileNameOf(name)}) {
+    for (const char* extension : {".stl", ".ply"}) {
+      if (found == trials.end()) found = trials.find(written + extension);
+    }
   }
   return found;
 }

@@ -138,6 +138,12 @@ TEST_F(TrialFolder, FindsAPerturbedObjectByTheFileItWasWrittenTo) {
   ASSERT_TRUE(report_.objects[2].trials);
   EXPECT_EQ(report_.objects[2].trials->series[0].held, 0.5);
   EXPECT_EQ(report_.missing, std::vector<std::string>{"2 of 3 objects have no trials."});
+  Report of_meshes;  // an OBJ file is written as STL
+  of_meshes.objects.resize(1);
+  of_meshes.objects[0].name = "jug.obj";
+  AddTrials(ReadTrials({Path()}), &of_meshes);
+  EXPECT_TRUE(of_meshes.objects[0].trials);
+  EXPECT_TRUE(of_meshes.missing.empty());
 }
 
 TEST_F(TrialFolder, PutsReplaysIntoThePageAsTheyAre) {
