@@ -26,7 +26,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS fonts-dejavu-core)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libantigrasp-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-    "libeigen3-dev, libcgal-dev, libembree-dev, libpng-dev, libfmt-dev, libspdlog-dev, libhdf5-dev, libtorch-dev, libtomlplusplus-dev")
+    "libeigen3-dev, libcgal-dev, libembree-dev, libtomlplusplus-dev, libzip-dev, libexpat1-dev, libassimp-dev, lib3mf-dev, libfmt-dev, libspdlog-dev, libpng-dev, libcairo2-dev, libhdf5-dev, libmeshoptimizer-dev, libyaml-cpp-dev, libmujoco-dev, libopenblas-dev, libtorch-dev")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS antigrasp)
 include(CPack)
 cpack_add_component(Unspecified GROUP program)

@@ -1,4 +1,4 @@
-"""Every call of antigrasp that README.md and docs/commands.md show, made in their order: it succeeds (or is refused) and
+"""Every call of antigrasp that README.md, docs/commands.md and docs/tour.md show, made in their order: it succeeds (or is refused) and
 prints the lines shown, whatever the numbers in them. Sets are small and training is short; the rest is as written."""
 import os
 import pathlib
@@ -108,7 +108,7 @@ class Documents(unittest.TestCase):
                     self.assertIn(without_numbers(line), said)
 
     def test_the_calls_of_the_readme_and_of_the_tour_do_what_they_show(self):
-        for document in ("README.md", "docs/commands.md"):
+        for document in ("README.md", "docs/commands.md", "docs/tour.md"):
             self.check(document)
 
     def test_every_command_is_in_the_tour(self):
