@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "antigrasp/core/format.h"
+#include "antigrasp/quality/metric_choice.h"
 #include "antigrasp/quality/named_gripper.h"
 #include "antigrasp/quality/object_size.h"
 #include "antigrasp/quality/sampling_effort.h"
@@ -140,16 +141,10 @@ void MetricFlags::RaiseEffort(std::int64_t objects, MetricOptions* options) cons
 }
 
 MetricOptions MetricFlags::Resolve() const {
-  MetricOptions options;
-  ApplyMetricPreset(*preset_, &options);
-  if (!noise_->empty()) ApplyNoisePreset(*noise_, &options);
-  if (!gripper_->empty()) ApplyGripper(*gripper_, &options);
-  OptionTable table;
-  Bind(&table, &options);
-  options_.Apply(&table);
-  if (*true_size_) options.object_min_extent = 0.0;
   const TypedOption typed = [this](const std::string& key) { return options_.Typed(key); };
-  RequireFittingGripper(options, "command line", typed);
+  const MetricOptions options = ResolveMetric(
+      {*preset_, *noise_, *gripper_, *true_size_},
+      [this](OptionTable* table) { options_.Apply(table); }, "command line", typed);
   WarnOfLengths(options, typed);
   return options;
 }

@@ -9,10 +9,10 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/file_kind.h"
 #include "antigrasp/datasets/mesh_folder.h"
+#include "antigrasp/datasets/mesh_object.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/mesh_format.h"
-#include "antigrasp/mesh/repair.h"
 #include "antigrasp/sdf/remesh.h"
 
 namespace antigrasp {
@@ -23,35 +23,6 @@ namespace fs = std::filesystem;
 std::string Expected() {
   return "a mesh (" + Alternatives(ReadableExtensions(), ".") +
          "), a folder of meshes or an antigrasp SDF file";
-}
-
-void AddNote(const std::string& note, InputObject* object) {
-  object->note += (object->note.empty() ? "" : "; ") + note;
-}
-
-InputObject FromMesh(const TriangleMesh& mesh) {
-  const RepairResult repaired = Repair(mesh);
-  InputObject object;
-  object.mesh = repaired.mesh;
-  object.status = repaired.accepted() ? "ok" : repaired.refusal;
-  for (const std::string& action : repaired.actions) AddNote(action, &object);
-  return object;
-}
-
-// A unit that was named, not the default, and is not the file's deserves a word.
-std::string UnitNote(const std::optional<FileUnit>& of_file, std::optional<LengthUnit> into) {
-  if (!of_file || !into || *into == LengthUnit::kM || ChoiceName(*into) == of_file->name) return "";
-  return "turned into " + ChoiceName(*into) + ": the file says that it is in " + of_file->name;
-}
-
-InputObject FromFile(const fs::path& path, std::optional<LengthUnit> into) {
-  MeshFile file = ReadMeshFile(path);
-  std::vector<std::string> read_otherwise = file.notes;
-  const std::string unit = UnitNote(file.unit, into);
-  if (!unit.empty()) read_otherwise.push_back(unit);
-  InputObject object = FromMesh(into ? InUnit(std::move(file), *into) : std::move(file.mesh));
-  for (const std::string& note : read_otherwise) AddNote(note, &object);
-  return object;
 }
 
 InputObject FromGrid(const SdfGrid& grid) {
@@ -65,7 +36,7 @@ InputObject FromGrid(const SdfGrid& grid) {
 // An unreadable mesh in a folder is no reason to leave the others.
 InputObject FromFileInFolder(const fs::path& file, std::optional<LengthUnit> into) {
   try {
-    return FromFile(file, into);
+    return ObjectOf(ReadMeshFile(file), into);
   } catch (const InputError& error) {
     InputObject object;
     object.status = "not readable";
@@ -160,7 +131,7 @@ InputObject ObjectSource::Load(std::int64_t i) const {
   const Input& from = inputs_[source.input];
   InputObject object = from.set         ? FromGrid(from.set->Grid(source.grid))
                        : from.is_folder ? FromFileInFolder(source.file, into_)
-                                        : FromFile(source.file, into_);
+                                        : ObjectOf(ReadMeshFile(source.file), into_);
   object.name = source.name;
   if (from.set && from.set->info().side > 0.0 && unit_ == GridUnit::kOfFiles) {
     object.mesh = Transformed(object.mesh, from.set->info().side, Eigen::Vector3d::Zero());

@@ -1,0 +1,17 @@
+// antigrasp._geometry: all that needs no network. The package antigrasp is what people import.
+#include "antigrasp/core/version.h"
+#include "antigrasp/python/bindings.h"
+#include "antigrasp/python/errors.h"
+
+PYBIND11_MODULE(_geometry, module) {
+  using namespace antigrasp::python;
+  TranslateErrors();
+  module.attr("version") = antigrasp::ProgramVersion();
+  module.attr("commit") = antigrasp::ProgramCommit();
+  BindMesh(module);
+  BindGrid(module);
+  BindMetric(module);
+  BindEvaluate(module);
+  BindGivenGrasps(module);
+  BindEpsilon(module);
+}
