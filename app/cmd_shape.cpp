@@ -5,8 +5,6 @@
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
 #include "antigrasp/core/atomic_file.h"
-#include "antigrasp/core/error.h"
-#include "antigrasp/core/format.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/mesh_format.h"
 #include "antigrasp/perturb/certificate.h"
@@ -27,22 +25,10 @@ void Shape(ShapeFlags flags, const OptionFlags& search) {
   search.Apply(&table);
   const PolyhedronOptions& options = flags.options;
   RequireWritableFormat(flags.out);
-  if (!(options.phi <= kBestAntipodality)) {
-    throw InputError(
-        "phi = " + FormatDouble(options.phi), "--phi",
-        "at most 70.5288 degrees, the regular tetrahedron's: no closed solid has more");
-  }
   { const AtomicFile probe(flags.out); }  // refuses an unwritable target before the work
   ConsoleObserver console;
-  const AdversarialPolyhedron solid = MakeAdversarialPolyhedron(
+  const AdversarialPolyhedron solid = RequestedPolyhedron(
       *FindChoice<Polyhedron>(flags.kind), options, flags.threads, console.Phase("searching"));
-  if (!solid.reached) {
-    char best[32];
-    std::snprintf(best, sizeof best, "%.4f", solid.antipodality.degrees);
-    throw InputError("phi = " + FormatDouble(options.phi) + " is out of reach",
-                     "shape " + flags.kind,
-                     std::string("at most ") + best + " degrees, the best reached");
-  }
   WriteMesh(flags.out, solid.mesh);
   std::printf("%s: %s, %s", flags.out.c_str(), flags.kind.c_str(),
               CertificateText(solid, options.phi).c_str());

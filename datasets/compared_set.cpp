@@ -5,17 +5,20 @@
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/rng.h"
-#include "antigrasp/datasets/objects.h"
 
 namespace antigrasp {
 
 ComparedSet ReadComparedSet(const std::string& input, LengthUnit units, int threads,
                             const ProgressFn& progress) {
+  return ComparedSetOf(
+      input, LoadObjects(ObjectSource({input}, GridUnit::kCube, units), threads, progress), units);
+}
+
+ComparedSet ComparedSetOf(std::string input, std::vector<InputObject> objects, LengthUnit units) {
   ComparedSet set;
-  set.input = input;
+  set.input = std::move(input);
   std::vector<std::string> statuses;
-  for (InputObject& object :
-       LoadObjects(ObjectSource({input}, GridUnit::kCube, units), threads, progress)) {
+  for (InputObject& object : objects) {
     statuses.push_back(object.status);
     if (object.ok() && SurfaceArea(object.mesh) > 0.0) {
       // The whole name: points of two shapes of one set are never drawn alike.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "antigrasp/core/parallel.h"
+#include "antigrasp/datasets/objects.h"
 #include "antigrasp/mesh/length_unit.h"
 #include "antigrasp/mesh/triangle_mesh.h"
 
@@ -24,6 +25,8 @@ struct ComparedSet {
 ComparedSet ReadComparedSet(const std::string& input, LengthUnit units, int threads,
                             const ProgressFn& progress = nullptr);
 
+// The same of objects that are there already, in that unit; `input`: what messages call them.
+ComparedSet ComparedSetOf(std::string input, std::vector<InputObject> objects, LengthUnit units);
 // InputError for a set of fewer shapes.
 void RequireShapes(const ComparedSet& set, std::size_t least);
 

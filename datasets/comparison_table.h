@@ -16,7 +16,6 @@ class ComparisonTable {
   std::string Csv() const;
   std::string Text() const;
 
- private:
   // NaN where a number does not exist.
   struct Row {
     const char* name;   // in the file
@@ -24,6 +23,9 @@ class ComparisonTable {
     double samples, reference;
     double factor = 1.0;  // on the screen: 100 for percent
   };
+  const std::vector<Row>& rows() const { return rows_; }
+
+ private:
   std::vector<Row> rows_;
 };
 

@@ -2,9 +2,27 @@
 
 #include <cstdio>
 
+#include "antigrasp/core/error.h"
+#include "antigrasp/core/format.h"
 #include "antigrasp/mesh/inspect.h"
 
 namespace antigrasp {
+
+AdversarialPolyhedron RequestedPolyhedron(Polyhedron kind, const PolyhedronOptions& options,
+                                          int threads, const ProgressFn& progress) {
+  if (!(options.phi >= 0.0 && options.phi <= kBestAntipodality)) {
+    throw InputError(
+        "phi = " + FormatDouble(options.phi), "--phi",
+        "at most 70.5288 degrees, the regular tetrahedron's: no closed solid has more");
+  }
+  AdversarialPolyhedron solid = MakeAdversarialPolyhedron(kind, options, threads, progress);
+  if (solid.reached) return solid;
+  char best[32];
+  std::snprintf(best, sizeof best, "%.4f", solid.antipodality.degrees);
+  throw InputError("phi = " + FormatDouble(options.phi) + " is out of reach",
+                   "shape " + ChoiceName(kind),
+                   std::string("at most ") + best + " degrees, the best reached");
+}
 
 std::string CertificateText(const AdversarialPolyhedron& solid, double phi) {
   const MeshReport report = Inspect(solid.mesh);

@@ -62,7 +62,8 @@ void RequireUsed(const SearchChoice& choice,
   }
 }
 
-void UseSearch(const SearchChoice& choice, int threads, PerturbSettings* settings) {
+void UseSearch(const SearchChoice& choice, int threads, PerturbSettings* settings,
+               const JudgePool::Maker& make) {
   const MetricOptions metric = settings->metric;
   if (OnTheMetric(choice)) {
     settings->method = [metric, options = choice.descent](
@@ -76,9 +77,9 @@ void UseSearch(const SearchChoice& choice, int threads, PerturbSettings* setting
   judging.metric = metric;
   judging.seed = settings->seed;
   judging.threads = threads;
-  const auto pool = [name = choice.objective](const JudgeOptions& options) {
-    const auto judges =
-        std::make_shared<JudgePool>([name, options] { return MakeJudge(name, options); });
+  const auto pool = [&make, name = choice.objective](const JudgeOptions& options) {
+    const auto judges = std::make_shared<JudgePool>(
+        make ? make : JudgePool::Maker([name, options] { return MakeJudge(name, options); }));
     JudgePool::Lease probe(judges.get());  // refused before the work
     return judges;
   };

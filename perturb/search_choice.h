@@ -4,6 +4,7 @@
 #include <string>
 
 #include "antigrasp/core/options.h"
+#include "antigrasp/perturb/judge_pool.h"
 #include "antigrasp/perturb/judged_search.h"
 #include "antigrasp/perturb/scored_perturbation.h"
 #include "antigrasp/perturb/search.h"
@@ -27,7 +28,9 @@ void RequireUsed(const SearchChoice& choice,
 // Makes the search the method of the settings, whose metric and seed are set. On a judge: searched
 // with few grasps an object, and both meshes judged with the metric's own number under the draws of
 // settings->seed, which the search has not seen; a trial so says what `antigrasp trial` says of
-// them at equal mass. `threads` of one object (0 = all). InputError as MakeJudge.
-void UseSearch(const SearchChoice& choice, int threads, PerturbSettings* settings);
+// them at equal mass. `threads` of one object (0 = all). `make`: makes a judge
+// of somebody's own, in the place of the one that the objective names. InputError as MakeJudge.
+void UseSearch(const SearchChoice& choice, int threads, PerturbSettings* settings,
+               const JudgePool::Maker& make = nullptr);
 
 }  // namespace antigrasp

@@ -1,5 +1,7 @@
 #include "antigrasp/python/errors.h"
 
+#include <chrono>
+
 #include "antigrasp/core/error.h"
 
 namespace antigrasp::python {
@@ -34,6 +36,11 @@ void Warn(const std::string& text) {
 }
 
 void ThrowIfPythonWasInterrupted() {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kBetween(20);  // asked after every item, however small
+  static thread_local Clock::time_point asked;
+  if (Clock::now() - asked < kBetween) return;
+  asked = Clock::now();
   const py::gil_scoped_acquire held;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }

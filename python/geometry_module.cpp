@@ -14,4 +14,8 @@ PYBIND11_MODULE(_geometry, module) {
   BindEvaluate(module);
   BindGivenGrasps(module);
   BindEpsilon(module);
+  BindTrial(module);
+  BindPerturb(module);
+  BindShapes(module);
+  BindCompare(module);
 }

@@ -4,25 +4,37 @@
     mesh = antigrasp.Mesh("mug.stl")                   # or (vertices, faces), or a trimesh
     score = antigrasp.evaluate(mesh)                   # score.graspability, .interval, .grasps
 
-Meshes: Mesh, Grid. Scores: evaluate, evaluate_grasps, epsilon, with the constants of a Metric.
-The same seed gives the same numbers as the program `antigrasp`, on any number of threads.
+Meshes: Mesh, Grid, read. Scores: evaluate, evaluate_grasps, epsilon, with the constants of a Metric;
+trial tries grasps in physics. perturb makes meshes harder to grasp, datasets holds sets of grids,
+compare measures one set against another. The same seed gives the same numbers as the program `antigrasp`, on any number of threads.
 Whatever takes a mesh takes a file, or an object with vertices and faces, too.
 Errors are InputError (also a ValueError) and Error, each with one line; warnings are Warning.
 """
 from __future__ import annotations
 
+import os
 from typing import Any
 
-from . import _geometry
+from . import _geometry, datasets, perturb
 from ._errors import Error, InputError, Warning
-from ._geometry import (GraspScores, Grasps, Grid, Inspection, Mesh, Metric, Score, StablePoses,
-                        epsilon)
+from ._geometry import (Comparison, GraspScores, Grasps, Grid, Inspection, Mesh, Metric, Score,
+                        ShapeSet, StablePoses, Trial, epsilon)
 from ._given import mesh_of, metric_of, one_or_list
 
 __version__: str = _geometry.version
 
-__all__ = ["Error", "GraspScores", "Grasps", "Grid", "InputError", "Inspection", "Mesh", "Metric",
-           "Score", "StablePoses", "Warning", "epsilon", "evaluate", "evaluate_grasps"]
+__all__ = ["Comparison", "Error", "GraspScores", "Grasps", "Grid", "InputError", "Inspection", "Mesh",
+           "Metric", "Score", "ShapeSet", "StablePoses", "Trial", "Warning", "compare", "datasets",
+           "epsilon", "evaluate", "evaluate_grasps", "perturb", "read", "trial"]
+
+
+def read(*paths: str | os.PathLike[str], threads: int = 0) -> list[Mesh]:
+    """The objects of mesh files, folders (searched recursively) and SDF files, as commands take them.
+
+    Names are told apart as there. What is no solid has a status that says why.
+    InputError for a missing path, for a file of unknown kind and for no object at all.
+    """
+    return _geometry.read_objects([os.fspath(path) for path in paths], threads)
 
 
 def evaluate(meshes: Any, metric: Metric | None = None, *, seed: int = 1,
@@ -52,3 +64,37 @@ def evaluate_grasps(mesh: Any, poses: Any, widths: Any = None, metric: Metric | 
         raise InputError(f"frame = {frame!r} (evaluate_grasps): expected 'mesh' or 'metres'")
     return _geometry.evaluate_grasps(mesh_of(mesh), poses, widths, frame == "metres",
                                      metric_of(metric), seed)
+
+
+def trial(meshes: Any, protocol: str = "six-ways", metric: Metric | None = None, *, seed: int = 1,
+          threads: int = 0, **options: Any) -> Any:
+    """Executes planned grasps in physics (MuJoCo): a Trial of a mesh, a list of those of a list.
+
+    protocol: six-ways, paper, graspdatagen or dexgraspbench (docs/trials.md). metric: of the grasps;
+    its friction is the trial's, unless the protocol lays down another and the metric was not told.
+    options: those of `antigrasp trial --help`, with _ for -: mass=0.05 (kg; 0 = its own), draws=5,
+    tip="pad". InputError for one that the protocol makes no use of, and when nothing could be tried.
+    """
+    return one_or_list(meshes, lambda given: _geometry.trial(given, protocol, metric_of(metric),
+                                                             seed, threads, options))
+
+
+def _compared(things: Any) -> Any:
+    if isinstance(things, (str, os.PathLike)):
+        return os.fspath(things)
+    return things if isinstance(things, ShapeSet) else [mesh_of(thing) for thing in things]
+
+
+def compare(samples: Any, reference: Any, training: Any = None, *, units: str = "m",
+            count: int = 500, points: int = 1024, normals: float = 1.0, seed: int = 1,
+            threads: int = 0) -> Comparison:
+    """Two sets of shapes on their surfaces, as `antigrasp compare`: a Comparison.
+
+    Each is a file, a folder, a ShapeSet (in its unit cube) or a list of meshes. training: what the
+    samples' generator was trained on, to look for copies. units: what the coordinates are in; count:
+    most shapes of either; points: on a shape; normals: their weight, 0 for places alone.
+    InputError for sets of fewer than two solids and numbers out of range.
+    """
+    return _geometry.compare(_compared(samples), _compared(reference),
+                             None if training is None else _compared(training), units, count, points,
+                             normals, seed, threads)
