@@ -8,25 +8,13 @@
 #include <filesystem>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/kernels.h"
 
 namespace antigrasp {
 namespace {
 
 char** g_arguments = nullptr;
 constexpr int kKeepTheUsersOwn = 0;
-
-// LibTorch, oneDNN and OpenBLAS choose their kernels by the processor, and those of AVX-512 add in
-// another order. All take those of AVX2 where there is no wish to the contrary, so that a seed
-// gives the same bytes on every x86-64 with AVX2. They look when they are loaded: it has to be said
-// before (docs/performance.md has what it costs).
-void AskForTheSameKernelsEverywhere() {
-#ifdef __x86_64__
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return;
-  setenv("ATEN_CPU_CAPABILITY", "avx2", kKeepTheUsersOwn);
-  setenv("DNNL_MAX_CPU_ISA", "AVX2", kKeepTheUsersOwn);
-  setenv("OPENBLAS_CORETYPE", "Haswell", kKeepTheUsersOwn);
-#endif
-}
 
 // The networks that were installed with this program, wherever the prefix was moved to since
 // (checkpoints/pretrained.h).

@@ -1,13 +1,13 @@
 // antigrasp.evaluate, Score and Grasps.
 #include <pybind11/stl.h>
 
-#include "antigrasp/core/ordered_stream.h"
+#include <cmath>
+
 #include "antigrasp/python/arrays.h"
 #include "antigrasp/python/bindings.h"
 #include "antigrasp/python/errors.h"
 #include "antigrasp/python/scored_mesh.h"
 #include "antigrasp/quality/object_size.h"
-#include "antigrasp/quality/scored_set.h"
 
 namespace antigrasp::python {
 namespace {
@@ -180,6 +180,24 @@ void BindScore(py::module_& module) {
       });
 }
 
+// What the program warns of and refuses. Not by a ScoredSet: what it looks up of known sets costs
+// as much as a score on a few grasps.
+void WarnOf(const std::vector<std::shared_ptr<ScoredObject>>& scores,
+            const MetricOptions& options) {
+  UnlikelySizes sizes(options);
+  bool any = false;
+  for (const std::string& text : UnlikelyLengths(options)) Warn(text);
+  for (const auto& scored : scores) {
+    sizes.Add(scored->name, scored->extent, &scored->score);
+    any = any || !std::isnan(scored->Value());
+    if (!scored->note.empty()) Warn(scored->name + ": " + scored->note);
+  }
+  for (const std::string& text : sizes.Texts()) Warn(text);
+  if (any) return;
+  throw InputError("no object scored; " + scores.front()->name + ": " + scores.front()->status,
+                   "evaluate", "a closed solid");
+}
+
 std::vector<std::shared_ptr<ScoredObject>> Evaluate(const std::vector<MeshPointer>& meshes,
                                                     const MetricObject& metric, std::uint64_t seed,
                                                     int threads) {
@@ -187,27 +205,20 @@ std::vector<std::shared_ptr<ScoredObject>> Evaluate(const std::vector<MeshPointe
   const MetricOptions options = metric.OptionsFor(std::ssize(meshes));
   const auto into = UnitToReadIn(options);
   std::vector<std::shared_ptr<ScoredObject>> scores(meshes.size());
-  ScoredSet set(options, metric.egad());
   {
     const py::gil_scoped_release released;
-    StreamInOrder(
+    ParallelFor(
         std::ssize(meshes), threads,
         [&](std::int64_t i) {
-          const MeshObject::Shared object = meshes[static_cast<std::size_t>(i)]->Usable(into);
-          ScoredObject scored = ScoreObject(object->name, object->status, object->mesh,
-                                            object->stream, options, seed);
-          scored.note = object->note;
-          return scored;
-        },
-        [&](std::int64_t i, ScoredObject scored) {
-          set.Add(scored);
-          scores[static_cast<std::size_t>(i)] = std::make_shared<ScoredObject>(std::move(scored));
+          const auto slot = static_cast<std::size_t>(i);
+          const MeshObject::Shared object = meshes[slot]->Usable(into);
+          scores[slot] = std::make_shared<ScoredObject>(ScoreObject(
+              object->name, object->status, object->mesh, object->stream, options, seed));
+          scores[slot]->note = object->note;
         },
         ListenToPython());
   }
-  for (const std::string& text : UnlikelyLengths(options)) Warn(text);
-  for (const std::string& text : set.Warnings()) Warn(text);
-  set.RequireAScore("evaluate");
+  WarnOf(scores, options);
   return scores;
 }
 

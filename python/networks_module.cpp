@@ -6,6 +6,7 @@
 #include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/kernels.h"
 #include "antigrasp/judge/make_judge.h"
+#include "antigrasp/models/sdf_values.h"
 #include "antigrasp/perturb/hold_descent.h"
 #include "antigrasp/python/arrays.h"
 #include "antigrasp/python/errors.h"
@@ -72,7 +73,11 @@ std::unique_ptr<Judge> JudgeOfRun(const RunConfig& config, const py::object& fun
   constexpr std::string_view kProgram = "judge:";
   std::string name = config.cem.score;
   if (name.starts_with(kProgram)) name.erase(0, kProgram.size());
-  return MakeJudge(name, {config.metric, AtEqualMass(), {}, config.seed, config.threads,
+  return MakeJudge(name, {config.metric,
+                          AtEqualMass(),
+                          {},
+                          config.seed,
+                          config.threads,
                           &ThrowIfPythonWasInterrupted});
 }
 
@@ -130,13 +135,14 @@ py::object NextEpisode(RunObject* self) {
 void BindRun(py::module_& module) {
   py::class_<RunObject>(module, "Run")
       .def("next", &NextEpisode)
-      .def("statistics",
-           [](const RunObject& self) { return StatisticsToCsv(self.run->rows()); },
-           "statistics.csv of the stages so far")
+      .def(
+          "statistics", [](const RunObject& self) { return StatisticsToCsv(self.run->rows()); },
+          "statistics.csv of the stages so far")
       .def("config", [](const RunObject& self) { return ToToml(self.run->config()); })
-      .def("save",
-           [](const RunObject& self, const std::filesystem::path& path) { self.run->Save(path); },
-           Released(), py::arg("path"));
+      .def(
+          "save",
+          [](const RunObject& self, const std::filesystem::path& path) { self.run->Save(path); },
+          Released(), py::arg("path"));
   module.def("begin", &BeginRun, py::arg("config"), py::arg("settings"), py::arg("gripper"),
              py::arg("start"), py::arg("fine_tune"), py::arg("judge"), py::arg("progress"));
 }
@@ -152,9 +158,13 @@ PYBIND11_MODULE(_networks, module) {
   pybind11::class_<SampledNetworks>(module, "Networks")
       .def(pybind11::init([](const std::string& networks, const std::string& device, int threads,
                              double fairing, double fairing_power) {
-             return std::make_unique<SampledNetworks>(SampleRequest{
-                 .networks = networks, .device = device, .threads = threads, .fairing = fairing,
-                 .fairing_power = fairing_power});
+             SampleRequest request;
+             request.networks = networks;
+             request.device = device;
+             request.threads = threads;
+             request.fairing = fairing;
+             request.fairing_power = fairing_power;
+             return std::make_unique<SampledNetworks>(request);
            }),
            pybind11::arg("networks"), pybind11::arg("device"), pybind11::arg("threads"),
            pybind11::arg("fairing"), pybind11::arg("fairing_power"), Released())

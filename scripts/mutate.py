@@ -42,7 +42,7 @@ class Clone:
         self.environment = {"CCACHE_BASEDIR": str(self.folder), "CCACHE_NOHASHDIR": "1",
                             "ANTIGRASP_BINARY": str(self.folder / "build/release/bin/antigrasp")}
         launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
-        configured = self.run("cmake", "--preset", "release", "-DANTIGRASP_TESTS=ON", *launcher)
+        configured = self.run("cmake", "--preset", "python", "-DANTIGRASP_TESTS=ON", *launcher)
         if configured.returncode:
             sys.exit(f"{folder}: cmake failed\n{configured.stdout[-2000:]}")
 

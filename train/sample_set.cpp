@@ -12,51 +12,67 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
-#include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/train/make_gan.h"
-#include "antigrasp/train/run_config.h"
-#include "antigrasp/train/sample_name.h"
 #include "antigrasp/train/stage.h"
 
 namespace antigrasp {
 
-std::filesystem::path WriteSamples(const SampleRequest& request, RunObserver* observer) {
+SampledNetworks::SampledNetworks(const SampleRequest& request) {
   if (std::isnan(request.fairing) || std::isnan(request.fairing_power)) {
     throw InputError("not a number", "--fairing, --fairing-power",
                      "a weight of at least 0, a power");
   }
+  path_ = FindNetworks(request.networks);
+  const Checkpoint checkpoint = ReadCheckpoint(path_);
+  config_ = NetworksFromToml(checkpoint.config, path_.string());
+  config_.device = request.device;
+  config_.threads = request.threads;
+  if (request.fairing >= 0.0) config_.gan.fairing = request.fairing;
+  if (request.fairing_power > 0.0) config_.gan.fairing_power = request.fairing_power;
+  model_ = MakeGan(config_);
+  model_->LoadNetworks(checkpoint.networks, path_.string());
+}
+
+ShapeSet SampledNetworks::About(std::uint64_t seed) const {
+  ShapeSet set;
+  set.kind = "samples";
+  set.seed = seed;
+  set.truncation = LargestDistance(config_.model);
+  set.provenance = "antigrasp sample " + path_.string() + ", episode " +
+                   std::to_string(model_->episode()) + ", update " + std::to_string(model_->step());
+  if (config_.gan.fairing > 0.0) {
+    set.provenance += ", fairing " + FormatDouble(config_.gan.fairing) + ", power " +
+                      FormatDouble(config_.gan.fairing_power);
+  }
+  return set;
+}
+
+std::vector<SdfGrid> SampledNetworks::Sample(std::uint64_t seed, std::int64_t first,
+                                             std::int64_t count) {
+  const torch::Tensor values = model_->Sample(seed, first, count);
+  std::vector<SdfGrid> grids;
+  for (std::int64_t i = 0; i < values.size(0); ++i) {
+    grids.push_back(GridOf(values[i], config_.model));
+  }
+  return grids;
+}
+
+std::filesystem::path WriteSamples(const SampleRequest& request, RunObserver* observer) {
   const std::filesystem::path path = FindNetworks(request.networks);
   RequireNotRead(path, {request.out});
   RequireShapeSetName(request.out);
   { const AtomicFile probe(request.out); }  // refuses an unwritable target before the work
-  const Checkpoint checkpoint = ReadCheckpoint(path);
-  RunConfig config = NetworksFromToml(checkpoint.config, path.string());
-  config.device = request.device;
-  config.threads = request.threads;
-  if (request.fairing >= 0.0) config.gan.fairing = request.fairing;
-  if (request.fairing_power > 0.0) config.gan.fairing_power = request.fairing_power;
-  const std::unique_ptr<ShapeModel> model = MakeGan(config);
-  model->LoadNetworks(checkpoint.networks, path.string());
-
-  ShapeSet set;
-  set.kind = "samples";
-  set.seed = request.seed;
-  set.truncation = LargestDistance(config.model);
-  set.provenance = "antigrasp sample " + path.string() + ", episode " +
-                   std::to_string(model->episode()) + ", update " + std::to_string(model->step());
-  if (config.gan.fairing > 0.0) {
-    set.provenance += ", fairing " + FormatDouble(config.gan.fairing) + ", power " +
-                      FormatDouble(config.gan.fairing_power);
-  }
-  ShapeSetWriter writer(request.out, set, static_cast<std::size_t>(request.count));
+  SampledNetworks networks(request);
+  ShapeSetWriter writer(request.out, networks.About(request.seed),
+                        static_cast<std::size_t>(request.count));
   const ProgressFn progress = observer->Phase("sampling");
   constexpr int kChunk = 64;
   for (int first = 0; first < request.count; first += kChunk) {
     const int count = std::min(kChunk, request.count - first);
-    const torch::Tensor values = model->Sample(request.seed, first, count);
-    for (std::int64_t i = 0; i < values.size(0); ++i) {
-      writer.Add(SampleName(first + i), GridOf(values[i], config.model));
+    int number = first;
+    for (const SdfGrid& grid : networks.Sample(request.seed, first, count)) {
+      writer.Add(SampleName(number++), grid);
     }
     progress(first + count, request.count);
   }

@@ -28,11 +28,10 @@ SteppedRun::SteppedRun(RunConfig config, RunObserver* observer, Judge* judge, El
     : config_(Checked(std::move(config))), observer_(observer), model_(MakeGan(config_)) {
   const torch::Tensor prior =
       NetworkValuesOf(PriorOf(config_, observer), config_.model, config_.prior_file);
-  loop_ = std::make_unique<CemLoop>(
-      config_, model_.get(), prior,
-      judge != nullptr ? JudgedScorer(config_, judge, observer)
-                       : GraspabilityScorer(config_, observer),
-      observer, std::move(refine));
+  loop_ = std::make_unique<CemLoop>(config_, model_.get(), prior,
+                                    judge != nullptr ? JudgedScorer(config_, judge, observer)
+                                                     : GraspabilityScorer(config_, observer),
+                                    observer, std::move(refine));
   if (!config_.start.empty()) {
     const std::filesystem::path networks = FindNetworks(config_.start);
     model_->LoadNetworks(ReadCheckpoint(networks).networks, networks.string());

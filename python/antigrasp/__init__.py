@@ -6,14 +6,16 @@
 
 Meshes: Mesh, Grid, read. Scores: evaluate, evaluate_grasps, epsilon, with the constants of a Metric;
 trial tries grasps in physics. perturb makes meshes harder to grasp, datasets holds sets of grids,
-compare measures one set against another. The same seed gives the same numbers as the program `antigrasp`, on any number of threads.
+compare measures one set against another. load and train, with all of antigrasp.networks, need
+LibTorch, which is loaded when they are first asked for. The same seed gives the same numbers as the program `antigrasp`, on any number of threads.
 Whatever takes a mesh takes a file, or an object with vertices and faces, too.
 Errors are InputError (also a ValueError) and Error, each with one line; warnings are Warning.
 """
 from __future__ import annotations
 
+import importlib
 import os
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _geometry, datasets, perturb
 from ._errors import Error, InputError, Warning
@@ -21,11 +23,23 @@ from ._geometry import (Comparison, GraspScores, Grasps, Grid, Inspection, Mesh,
                         ShapeSet, StablePoses, Trial, epsilon)
 from ._given import mesh_of, metric_of, one_or_list
 
+if TYPE_CHECKING:
+    from . import networks
+    from .networks import load, train
+
 __version__: str = _geometry.version
 
 __all__ = ["Comparison", "Error", "GraspScores", "Grasps", "Grid", "InputError", "Inspection", "Mesh",
            "Metric", "Score", "ShapeSet", "StablePoses", "Trial", "Warning", "compare", "datasets",
-           "epsilon", "evaluate", "evaluate_grasps", "perturb", "read", "trial"]
+           "epsilon", "evaluate", "evaluate_grasps", "load", "networks", "perturb", "read", "train",
+           "trial"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in ("load", "networks", "train"):
+        raise AttributeError(f"module 'antigrasp' has no attribute {name!r}")
+    networks = importlib.import_module(".networks", __name__)
+    return networks if name == "networks" else getattr(networks, name)
 
 
 def read(*paths: str | os.PathLike[str], threads: int = 0) -> list[Mesh]:

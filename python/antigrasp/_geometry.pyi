@@ -10,6 +10,8 @@ Floats = NDArray[np.float64]
 version: str
 commit: str
 
+def ask_for_the_same_kernels_everywhere() -> None: ...
+
 class Inspection:
     closed: bool
     manifold: bool

@@ -1,13 +1,16 @@
 """What needs LibTorch: networks that draw objects, and the loop that trains them.
 
-Importing this loads LibTorch, and has it, oneDNN and OpenBLAS take AVX2's kernels unless the
-environment says otherwise, so that a seed gives the same bytes everywhere (docs/training.md).
+Importing this loads LibTorch, and has it and oneDNN take AVX2's kernels unless the environment says
+otherwise, so that a seed gives the same bytes everywhere. OpenBLAS chooses when NumPy loads it: where
+it took others, a Warning says what to set.
 """
 from __future__ import annotations
 
 import csv
+import ctypes
 import io
 import os
+import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -15,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from . import _geometry
-from ._errors import Error
+from ._errors import Error, Warning
 from ._geometry import Mesh, ShapeSet
 
 _geometry.ask_for_the_same_kernels_everywhere()
@@ -23,6 +26,23 @@ try:
     from . import _networks
 except ImportError as error:
     raise Error(f"antigrasp has no networks here: it was built without LibTorch, or {error}") from error
+
+
+
+def _blas_kernels() -> str:
+    """Those of OpenBLAS in this process, "Haswell" for AVX2's; "" where another BLAS is at work."""
+    try:
+        name = ctypes.CDLL("libopenblas.so.0").openblas_get_corename
+    except (OSError, AttributeError):
+        return ""
+    name.restype = ctypes.c_char_p
+    return name().decode()
+
+
+if "OPENBLAS_CORETYPE" not in os.environ and _blas_kernels() not in ("", "Haswell"):
+    warnings.warn(f"OpenBLAS was loaded with the kernels of {_blas_kernels()}: last digits of samples and training "
+                  "differ from the program's. OPENBLAS_CORETYPE=Haswell, set before Python starts, gives its bytes",
+                  Warning, stacklevel=2)
 
 __all__ = ["Episode", "Networks", "Run", "load", "pretrained", "train"]
 

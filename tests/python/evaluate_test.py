@@ -184,6 +184,14 @@ class Epsilon(Files):
         self.assertNotEqual(found[0], found[1])
         self.assertEqual(found[0], antigrasp.epsilon(points[0], normals[0], [0, 0, 0], .3))
 
+    def test_every_grasp_has_its_own_centre_of_mass_when_there_are_as_many(self):
+        points, normals = self.contacts()
+        points[1], normals[1] = points[0], normals[0]
+        coms = numpy.array([[0, 0, 0], [.02, 0, 0]])
+        found = antigrasp.epsilon(points, normals, coms)
+        self.assertEqual(found.tolist(), [antigrasp.epsilon(points[0], normals[0], com) for com in coms])
+        self.assertNotEqual(found[0], found[1])
+
     def test_a_jaw_that_slips_gives_no_force(self):
         points, normals = self.contacts()
         closing = numpy.array([[[0, 1, 0], [0, -1, 0]], [[1, 0, 0], [-1, 0, 0.]]])
