@@ -70,15 +70,17 @@ def main():
         print(f"{name}: {1e6 * fast / len(many_points):.3f} us a grasp; NumPy and SciPy {1e6 * loop / some:.0f} us")
         print(f"ratio python_epsilon_{name} {loop / some / (fast / len(many_points)):.0f}")
 
-    metric = Metric(num_grasps=100)
-    antigrasp.evaluate(mesh, metric)  # looks at the mesh once
-    shares = []
-    for _ in range(20):
+    antigrasp.evaluate(mesh)  # looks at the mesh once
+    beside, work = [], []
+    for _ in range(40):
+        score = None
         start = time.perf_counter()
-        score = antigrasp.evaluate(mesh, metric)
-        shares.append((time.perf_counter() - start) / score.seconds - 1)
-    print(f"a call of evaluate takes {100 * np.median(shares):.2f} % longer than its work, {1e3 * score.seconds:.1f} ms")
-    print(f"ratio python_evaluate_overhead {1 + np.median(shares):.4f}")
+        score = antigrasp.evaluate(mesh)
+        beside.append(time.perf_counter() - start - score.seconds)
+        work.append(score.seconds)
+    # The least of each: all else is other processes.
+    print(f"a call of evaluate takes {1e3 * min(beside):.2f} ms beside its work, {1e3 * min(work):.1f} ms")
+    print(f"ratio python_evaluate_overhead {1 + min(beside) / min(work):.4f}")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # Manual pages and completion are installed with the program; `cpack` in the build folder makes Debian packages:
-# antigrasp (programs, networks, pages) and libantigrasp-dev (libraries and headers).
+# antigrasp (programs, networks, pages), libantigrasp-dev (libraries and headers) and, where it is built,
+# python3-antigrasp.
 find_program(ANTIGRASP_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
 if(ANTIGRASP_TORCH AND ANTIGRASP_PYTHON)
   # Of what `antigrasp help` says; the program is there by then.
@@ -28,6 +29,10 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
     "libeigen3-dev, libcgal-dev, libembree-dev, libtomlplusplus-dev, libzip-dev, libexpat1-dev, libassimp-dev, lib3mf-dev, libfmt-dev, libspdlog-dev, libpng-dev, libcairo2-dev, libhdf5-dev, libmeshoptimizer-dev, libyaml-cpp-dev, libmujoco-dev, libopenblas-dev, libtorch-dev")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS antigrasp)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-antigrasp)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${ANTIGRASP_PYTHON_NEEDS}")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS antigrasp)  # the networks that ship
 include(CPack)
 cpack_add_component(Unspecified GROUP program)
 cpack_add_component(networks GROUP program)
@@ -35,3 +40,7 @@ cpack_add_component(quality GROUP library)
 cpack_add_component(train GROUP library)
 cpack_add_component_group(program)
 cpack_add_component_group(library)
+if(ANTIGRASP_PYTHON_MODULE)
+  cpack_add_component(python GROUP python)
+  cpack_add_component_group(python)
+endif()

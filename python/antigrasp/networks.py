@@ -10,6 +10,7 @@ import csv
 import ctypes
 import io
 import os
+import pathlib
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -21,6 +22,11 @@ from . import _geometry
 from ._errors import Error, Warning
 from ._geometry import Mesh, ShapeSet
 
+# Those that were installed beside this package, wherever the prefix was moved to since.
+for _folder in pathlib.Path(__file__).parents:
+    if (_folder / "share/antigrasp/pretrained").is_dir():
+        os.environ.setdefault("ANTIGRASP_PRETRAINED", str(_folder / "share/antigrasp/pretrained"))
+        break
 _geometry.ask_for_the_same_kernels_everywhere()
 try:
     from . import _networks

@@ -2,8 +2,10 @@
 import ast
 import inspect
 import pathlib
+import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import support  # skips without NumPy
@@ -63,6 +65,21 @@ class Package(unittest.TestCase):
     def test_the_version_is_that_of_the_program(self):
         said = subprocess.run([support.BINARY, "--version"], check=True, capture_output=True, text=True).stdout
         self.assertEqual(said, f"antigrasp {antigrasp.__version__} ({antigrasp._geometry.commit})\n")
+
+    def test_the_code_of_the_document_runs(self):
+        document = (pathlib.Path(__file__).parents[2] / "docs/python.md").read_text()
+        code, of_networks = re.findall(r"```python\n(.*?)```", document, re.S)
+        shorter = {"hausdorff=5": "hausdorff=5, starts=1, descent_steps=3, generations=1",
+                   "mass=0.05": "metric=Metric(num_grasps=3), mass=0.05"}
+        for given, put in shorter.items():
+            self.assertIn(given, code)
+            code = code.replace(given, put)
+        self.assertIn('antigrasp.train("configs/demo.toml", {"cem.control": False}, judge=judge)', of_networks)
+        with tempfile.TemporaryDirectory() as folder:
+            antigrasp.Mesh(support.corners(), support.FACES).save(pathlib.Path(folder) / "mug.stl")
+            done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=folder)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertTrue((pathlib.Path(folder) / "harder.stl").exists())
 
     def test_ctrl_c_stops_work_without_the_gil(self):
         script = """
