@@ -133,6 +133,7 @@ class GivenGrasps(Files):
         pose = numpy.array([[[0, 0, 1, 30], [0, 1, 0, 20], [-1, 0, 0, 20], [0, 0, 0, 1.]]])  # from above, across y
         down = antigrasp.evaluate_grasps(self.block, pose, metric=metric)
         self.assertEqual((down.statuses, down.reachable.tolist()), (["ok"], [True]))
+        self.assertAlmostEqual(down.widths[0], .04)  # the block's extent along y
         pose[0, :3, 0] *= -1  # through the block from below: the palm is in it
         pose[0, :3, 2] *= -1
         self.assertEqual(antigrasp.evaluate_grasps(self.block, pose, metric=metric).reachable.tolist(), [True])

@@ -81,6 +81,8 @@ class Train(Files):
                               progress=lambda *what: told.append(what))
         first = next(run)
         scored = numpy.flatnonzero(~numpy.isnan(first.scores))
+        self.assertGreaterEqual(24 - len(scored), 3)  # a fifth has no score
+        self.assertGreater(first.scores[scored].min(), 0)
         lowest = scored[numpy.argsort(first.scores[scored], kind="stable")[:6]]
         numpy.testing.assert_array_equal(first.elites, numpy.sort(lowest))
         mesh = first.samples.meshes()[scored[0]]
