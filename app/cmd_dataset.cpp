@@ -17,11 +17,13 @@ namespace {
 struct MakeFlags {
   PriorSetOptions options;
   std::string out;
+  int processes = 1;
 };
 
-void Make(const MakeFlags& flags) {
+void Make(const MakeFlags& flags, WorkShare* share) {
   ConsoleObserver console;
-  WritePriorSet(flags.out, flags.options, console.Phase("making " + flags.options.kind));
+  WritePriorSet(flags.out, flags.options, console.Phase("making " + flags.options.kind), share);
+  if (Helps(share)) return;
   std::printf("%s: %s\n", flags.out.c_str(), PriorSetText(flags.options).c_str());
 }
 
@@ -77,7 +79,7 @@ void AddResolution(CLI::App* command, int* resolution) {
 
 }  // namespace
 
-void AddDatasetCommand(CLI::App* app) {
+void AddDatasetCommand(CLI::App* app, const JobRunner& job) {
   CLI::App* dataset = app->add_subcommand(
       "dataset", "Make a prior set, import one from mesh files, or pair objects");
   dataset->require_subcommand(1);
@@ -96,8 +98,11 @@ void AddDatasetCommand(CLI::App* app) {
       ->check(CLI::Range(0, 2))
       ->capture_default_str();
   AddThreads(make, &make_flags->options.threads);
+  AddProcesses(make, &make_flags->processes);
   make->add_option("--out", make_flags->out, ShapeFileKinds())->required();
-  make->callback([make_flags] { Make(*make_flags); });
+  make->callback([make_flags, job] {
+    job(make_flags->processes, [&](WorkShare* share) { Make(*make_flags, share); });
+  });
 
   const auto request = std::make_shared<ImportRequest>();
   CLI::App* imported = dataset->add_subcommand(

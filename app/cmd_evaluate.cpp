@@ -26,6 +26,7 @@ struct EvaluateFlags : GivenRequest {  // whose grasps are those of --grasps-in
   std::string judge;
   ProgramLimits limits;
   int hardest = 0;  // 0: all objects
+  int processes = 1;
 };
 
 std::string MetricPath(const EvaluateFlags& flags) {
@@ -49,6 +50,7 @@ void PrintLines(const std::vector<std::string>& lines) {
 void EvaluateHardest(const EvaluateFlags& flags, const ObjectSource& objects,
                      const Scoring& scoring) {
   const HardestOfSet found = FindHardest(objects, flags.inputs.front(), flags.hardest, scoring);
+  if (Helps(flags.share)) return;
   WriteScores(flags, scoring, HardestCsv(found));
   PrintLines(found.summary);
 }
@@ -56,14 +58,15 @@ void EvaluateHardest(const EvaluateFlags& flags, const ObjectSource& objects,
 // With --trial the grasps wait in flags->sampled, to be written when they have been executed.
 void EvaluateAll(EvaluateFlags* given, const ObjectSource& objects, const Scoring& scoring) {
   const EvaluateFlags& flags = *given;
+  const bool helps = Helps(flags.share);
   std::optional<ObjectSource> originals;
   std::vector<std::int64_t> original_of;
   if (!flags.baseline.empty()) {
     originals.emplace(flags.baseline, GridUnit::kOfFiles, UnitToReadIn(scoring.metric));
     original_of = PairWithOriginals(objects, *originals);
   }
-  if (flags.in_physics) GraspFiles(flags.output, objects).RequireLabels();
-  GraspFiles grasps(flags.in_physics ? GraspOutput{} : flags.output, objects);
+  if (flags.in_physics && !helps) GraspFiles(flags.output, objects).RequireLabels();
+  GraspFiles grasps(flags.in_physics || helps ? GraspOutput{} : flags.output, objects);
   std::int64_t place = 0;
   ScoreTable table;
   const ScoredSet scores =
@@ -73,6 +76,7 @@ void EvaluateAll(EvaluateFlags* given, const ObjectSource& objects, const Scorin
                      grasps.Add(place++, scored);
                      if (flags.in_physics) AddGiven(scored, &given->sampled);
                    });
+  if (helps) return;
   const std::string pair = originals ? OtherNamesText(objects, *originals) : "";
   if (!pair.empty()) Warn(pair);
   for (const std::string& note : grasps.Commit()) Warn(note);
@@ -103,6 +107,7 @@ void EvaluateGrasps(EvaluateFlags flags, const TypedTrial& typed, const MetricOp
   if (flags.in_physics) flags.output.about.protocol = ChoiceName(flags.protocol);
   ConsoleObserver console;
   const GivenReport report = ScoreGiven(flags, metric, of_trial, trial, &console);
+  if (Helps(flags.share)) return;
   std::fputs(report.table.c_str(), stdout);
   for (const std::string& warning : report.warnings) Warn(warning);
   PrintLines(report.summary);
@@ -113,12 +118,15 @@ void Evaluate(EvaluateFlags flags, const TypedTrial& typed, const MetricFlags& m
     throw InputError("an option of a trial", typed.First(),
                      "--trial PROTOCOL beside them, or --judge trial");
   }
-  if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refuses it before the work
+  if (!flags.out.empty() && !Helps(flags.share)) {
+    const AtomicFile probe(flags.out);  // refuses it before the work
+  }
   ConsoleObserver console;
   Scoring scoring{metric_flags.Resolve(), metric_flags.effort_given(),
                   metric_flags.preset() == "egad", flags.seed, flags.threads};
   scoring.observer = &console;
   scoring.warn = &Warn;
+  scoring.share = flags.share;
   flags.output.about.metric = scoring.metric;
   const std::string& gripper = metric_flags.gripper();
   flags.output.about.base = BaseOf(gripper.empty() ? "yumi" : gripper);
@@ -171,7 +179,7 @@ void AddJudgeFlags(CLI::App* command, EvaluateFlags* flags) {
 
 }  // namespace
 
-void AddEvaluateCommand(CLI::App* app) {
+void AddEvaluateCommand(CLI::App* app, const JobRunner& job) {
   const auto flags = std::make_shared<EvaluateFlags>();
   CLI::App* command = app->add_subcommand("evaluate", "Score the graspability of objects");
   command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
@@ -217,12 +225,16 @@ void AddEvaluateCommand(CLI::App* app) {
   command->get_option("--judge")->excludes(given);
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
   AddThreads(command, &flags->threads, "; scores do not depend on it");
+  AddProcesses(command, &flags->processes);
   const auto trial = AddTrialFlags(command);
   const auto metric = std::make_shared<MetricFlags>(command);
   command->footer(EffortRule());
-  command->callback([flags, command, trial, metric] {
+  command->callback([flags, command, trial, metric, job] {
     flags->in_physics = command->count("--trial") > 0;
-    Evaluate(*flags, TypedOf(*command, *trial), *metric);
+    job(flags->processes, [&](WorkShare* share) {
+      flags->share = share;
+      Evaluate(*flags, TypedOf(*command, *trial), *metric);
+    });
   });
 }
 

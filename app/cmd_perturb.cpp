@@ -1,5 +1,3 @@
-#include <spdlog/spdlog.h>
-
 #include <cstdio>
 #include <memory>
 #include <type_traits>
@@ -7,71 +5,25 @@
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
-#include "antigrasp/core/atomic_file.h"
-#include "antigrasp/core/error.h"
-#include "antigrasp/datasets/result_folder.h"
-#include "antigrasp/judge/object_notes.h"
 #include "antigrasp/perturb/antipodal_rotation.h"
 #include "antigrasp/perturb/exhaustive.h"
-#include "antigrasp/perturb/perturb_all.h"
-#include "antigrasp/perturb/perturb_folder.h"
-#include "antigrasp/perturb/perturb_summary.h"
+#include "antigrasp/perturb/perturb_objects.h"
 #include "antigrasp/perturb/random_perturbation.h"
 #include "antigrasp/perturb/search_choice.h"
-#include "antigrasp/quality/object_size.h"
 
 namespace antigrasp {
 namespace {
 
-struct PerturbFlags {
-  std::vector<std::string> inputs;
-  std::string out;
-  std::uint64_t seed = 1;
-  bool overwrite = false;
-  int threads = 0;
+struct PerturbFlags : PerturbRequest {
+  int processes = 1;
 };
-
-void Perturb(const PerturbFlags& flags, const PerturbSettings& settings,
-             const std::string& constants, const std::string& gripper) {
-  ConsoleObserver console;
-  CheckPerturbFolder(flags.inputs, flags.out);
-  const ObjectSource source(flags.inputs, GridUnit::kOfFiles, UnitToReadIn(settings.metric));
-  for (const std::string& file : PerturbFiles().of_call) {
-    RequireNotRead(gripper, {std::filesystem::path(flags.out) / file});
-  }
-  ResultFolder results(flags.out, PerturbFiles(), source, flags.overwrite);
-  auto inputs = LoadObjects(source, flags.threads, console.Phase("reading"));
-  WarnOfNotes(inputs, &Warn);
-  WarnOfSizes(inputs, settings.metric, &Warn);
-  const auto objects = PerturbAll(std::move(inputs), settings, flags.threads, InterruptRequested,
-                                  console.Phase("perturbing"));
-  const std::vector<std::string> notes = WritePerturbFiles(
-      objects, {constants, settings.common.history, flags.threads}, results.path());
-  for (const std::string& note : notes) spdlog::warn("{}", note);
-  const std::vector<PerturbRow> rows = RowsOf(objects);
-  results.Commit(PerturbCsv(rows));
-  for (const PerturbedObject& item : objects) {
-    if (item.Status() != "ok") spdlog::warn("{}: {}", item.object.name, item.Status());
-  }
-  std::fputs(PerturbSummary(objects).c_str(), stdout);
-  const bool any = MeansOf(rows).ok > 0;
-  if (any) {
-    std::printf("%s\n", ScoredOnText(objects, settings.metric).c_str());
-    std::printf("meshes before and after, their picture (sheet.png) and perturb.csv in %s\n",
-                flags.out.c_str());
-  }
-  if (InterruptRequested()) throw Interrupted();
-  if (!any) {
-    throw RuntimeFailure("no object was perturbed: " + results.table().string() + " says why");
-  }
-}
 
 // One subcommand: the options of its own algorithm, those that the paper's three share, and the
 // metric's. `subdivide` is the default of --subdivide: what moves vertices within a limit of angles
 // needs many of them. `run` is the algorithm.
 template <typename Options, typename Run>
-void AddMethod(CLI::App* perturb, const std::string& name, const std::string& help,
-               SubdivideOptions subdivide, Run run) {
+void AddMethod(CLI::App* perturb, const JobRunner& job, const std::string& name,
+               const std::string& help, SubdivideOptions subdivide, Run run) {
   CLI::App* command = perturb->add_subcommand(name, help);
   const auto flags = std::make_shared<PerturbFlags>();
   command->add_option("OBJECT", flags->inputs, "meshes, folders of meshes, SDF files")->required();
@@ -80,6 +32,7 @@ void AddMethod(CLI::App* perturb, const std::string& name, const std::string& he
   AddOverwrite(command, &flags->overwrite);
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
   AddThreads(command, &flags->threads, "; results do not depend on it");
+  AddProcesses(command, &flags->processes);
   constexpr bool kSearch = std::is_same_v<Options, SearchChoice>;
   const auto bind = [](OptionTable* table, Options* own, PerturbSettings* settings) {
     Bind(table, own);
@@ -92,7 +45,7 @@ void AddMethod(CLI::App* perturb, const std::string& name, const std::string& he
   bind(&defaults, &default_own, &default_settings);
   const OptionFlags own_flags(command, defaults, "Perturbation");
   const auto metric_flags = std::make_shared<MetricFlags>(command);
-  command->callback([flags, own_flags, metric_flags, bind, subdivide, run] {
+  command->callback([flags, own_flags, metric_flags, bind, subdivide, run, job] {
     Options own;
     PerturbSettings settings{.subdivide = subdivide};
     OptionTable table, used;
@@ -111,29 +64,35 @@ void AddMethod(CLI::App* perturb, const std::string& name, const std::string& he
       used = table;
     }
     Bind(&used, &settings.metric);
-    std::string constants = "seed = " + std::to_string(flags->seed) + "\n\n" + used.Dump();
-    if (settings.judges) constants += JudgePool::Lease(settings.judges.get())->Toml();
-    Perturb(*flags, settings, constants, metric_flags->gripper());
+    flags->constants = "seed = " + std::to_string(flags->seed) + "\n\n" + used.Dump();
+    if (settings.judges) flags->constants += JudgePool::Lease(settings.judges.get())->Toml();
+    flags->gripper = metric_flags->gripper();
+    job(flags->processes, [&](WorkShare* share) {
+      flags->share = share;
+      ConsoleObserver console;
+      PerturbObjects(*flags, settings, &console, &Warn,
+                     [](const std::string& text) { std::fputs(text.c_str(), stdout); });
+    });
   });
 }
 
 }  // namespace
 
-void AddPerturbCommand(CLI::App* app) {
+void AddPerturbCommand(CLI::App* app, const JobRunner& job) {
   CLI::App* perturb = app->add_subcommand(
       "perturb", "Make objects harder to grasp by moving their vertices (paper, section IV)");
   perturb->require_subcommand(1);
   perturb->footer("antigrasp perturb METHOD --help shows a method's options");
-  AddMethod<ExhaustiveOptions>(perturb, "exhaustive",
+  AddMethod<ExhaustiveOptions>(perturb, job, "exhaustive",
                                "IV-A: every vertex of every antipodal face; small meshes",
                                SubdivideOptions{kAsItIs}, PerturbExhaustively);
   AddMethod<RandomPerturbOptions>(
-      perturb, "random", "IV-B: random vertices of sampled pairs, normals kept within alpha",
+      perturb, job, "random", "IV-B: random vertices of sampled pairs, normals kept within alpha",
       SubdivideOptions{0.0}, PerturbRandomly);
-  AddMethod<RotationOptions>(perturb, "rotation",
+  AddMethod<RotationOptions>(perturb, job, "rotation",
                              "IV-C: decimate, then turn the faces of sampled pairs apart",
                              SubdivideOptions{kAsItIs}, PerturbByRotation);
-  AddMethod<SearchChoice>(perturb, "search",
+  AddMethod<SearchChoice>(perturb, job, "search",
                           "beyond the paper: descent on the metric, normals kept within alpha, or "
                           "search on a judge (--objective) within budgets",
                           SubdivideOptions{0.0}, nullptr);

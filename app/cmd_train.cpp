@@ -115,8 +115,7 @@ void AddTrainCommand(CLI::App* app) {
   flags->gripper = AddGripperFlag(command, "Options");
   command->add_option("--seed", flags->run.seed, "same as --set run.seed=");
   command->add_option("--threads", flags->run.threads, "same as --set run.threads=");
-  command->add_option("--processes", flags->processes, "on this machine, to share the work")
-      ->check(CLI::Range(1, 1024));
+  AddProcesses(command, &flags->processes);
   command->add_option("--device", flags->run.device, "same as --set run.device=");
   command->add_option("--mode", flags->run.mode,
                       "same as --set cem.mode=: " + Alternatives(ChoiceNames<EpisodeMode>()));

@@ -1,22 +1,13 @@
-#include <spdlog/spdlog.h>
-
 #include <cstdio>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/flags.h"
 #include "antigrasp/app/trial_flags.h"
-#include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
-#include "antigrasp/core/format.h"
-#include "antigrasp/datasets/objects.h"
-#include "antigrasp/judge/object_notes.h"
-#include "antigrasp/quality/object_size.h"
-#include "antigrasp/trial/model_table.h"
-#include "antigrasp/trial/object_trials.h"
+#include "antigrasp/judge/model_trials.h"
 
 namespace antigrasp {
 namespace {
@@ -35,44 +26,8 @@ struct TrialFlags : PhysicsTrialRequest {
   double friction_angle = 17.0;
   std::string reading = kBoth;  // or a FrictionReading
   bool millimetres = false;
+  int processes = 1;
 };
-
-std::vector<InputObject> LoadUsable(const TrialFlags& flags, const MetricOptions& metric) {
-  ConsoleObserver console;
-  const ObjectSource source(flags.inputs, GridUnit::kOfFiles, UnitToReadIn(metric));
-  source.RequireNotRead({flags.out});
-  std::vector<InputObject> objects = LoadObjects(source, flags.threads, console.Phase("reading"));
-  WarnOfNotes(objects, &Warn);
-  const std::string first = objects.front().status;
-  for (const InputObject& object : objects) {
-    if (!object.ok()) spdlog::warn("{}: left out: {}", object.name, object.status);
-  }
-  std::erase_if(objects, [](const InputObject& object) { return !object.ok(); });
-  if (objects.empty()) throw InputError(first, flags.inputs.front(), "a closed, oriented mesh");
-  return objects;
-}
-
-void TrialByModel(const TrialFlags& flags, const PhysicsTrialOptions& given, MetricOptions metric) {
-  TrialOptions options = given.series;
-  OptionTable table;
-  Bind(&table, &options);
-  if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refused before the work
-  const std::vector<InputObject> objects = LoadUsable(flags, metric);
-  WarnOfSizes(objects, metric, &Warn);
-  ConsoleObserver console;
-  const std::vector<TrialReading> all =
-      RunReadings(objects, FindChoice<FrictionReading>(flags.reading), flags.friction_angle, metric,
-                  options, flags.seed, flags.threads, &console);
-  std::vector<std::string> names;
-  for (const InputObject& object : objects) names.push_back(object.name);
-  if (!flags.out.empty()) {
-    WriteFileAtomic(flags.out, TrialCsv(names, all));
-    Bind(&table, &metric);
-    WriteFileAtomic(flags.out + ".trial.toml",
-                    ModelTrialToml(flags.seed, flags.friction_angle, flags.reading) + table.Dump());
-  }
-  std::fputs(TrialText(names, all, options.min_epsilon).c_str(), stdout);
-}
 
 void RequireNoPhysics(const CLI::App& command, const TypedTrial& typed) {
   for (const char* flag :
@@ -94,7 +49,12 @@ void Trial(TrialFlags flags, const CLI::App& command, const TypedTrial& typed,
   }
   if (flags.engine == TrialEngine::kModel) {
     RequireNoPhysics(command, typed);
-    return TrialByModel(flags, options, metric);
+    if (Helps(flags.share)) return;  // rank 0 alone
+    ConsoleObserver console;
+    const std::string text = TryByModel(flags, metric, options.series, flags.friction_angle,
+                                        flags.reading, &console, &Warn);
+    std::fputs(text.c_str(), stdout);
+    return;
   }
   RequireOptionsUsed(protocol, options.physics.tip.shape, typed);
   if (command.count("--equal-mass") > 0 && (flags.baseline.empty() || options.mass > 0.0)) {
@@ -107,14 +67,15 @@ void Trial(TrialFlags flags, const CLI::App& command, const TypedTrial& typed,
                : std::vector<double>{metric.friction};
   ConsoleObserver console;
   const PhysicsTrialReport report = TryInPhysics(flags, metric, options, &console);
-  for (const std::string& warning : report.warnings) spdlog::warn("{}", warning);
+  if (Helps(flags.share)) return;
+  for (const std::string& warning : report.warnings) Warn(warning);
   std::fputs(report.text.c_str(), stdout);
   if (report.interrupted) throw Interrupted();
 }
 
 }  // namespace
 
-void AddTrialCommand(CLI::App* app) {
+void AddTrialCommand(CLI::App* app, const JobRunner& job) {
   const auto flags = std::make_shared<TrialFlags>();
   CLI::App* command = app->add_subcommand(
       "trial", "Try in physics how often a gripper holds objects (the paper's Table I)");
@@ -146,17 +107,19 @@ void AddTrialCommand(CLI::App* app) {
       ->capture_default_str();
   CLI::Option* mm = command->add_flag("--mm", flags->millimetres, "--units mm --true-size");
   command->add_option("--seed", flags->seed, "random seed")->capture_default_str();
-  command->add_option("--threads", flags->threads, "threads; 0 = all; results do not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(command, &flags->threads, "; results do not depend on it");
+  AddProcesses(command, &flags->processes);
   const auto trial_flags = AddTrialFlags(command);
   const auto metric_flags = std::make_shared<MetricFlags>(command);
   command->remove_option(command->get_option("--percentile"));  // without meaning here
   command->get_option("--friction")->excludes("--friction-angle", "--reading");
   for (const char* name : {"--units", "--object-min-extent"}) mm->excludes(name);
   command->footer(kTrialHelp);
-  command->callback([flags, command, trial_flags, metric_flags] {
-    Trial(*flags, *command, TypedOf(*command, *trial_flags), *metric_flags);
+  command->callback([flags, command, trial_flags, metric_flags, job] {
+    job(flags->processes, [&](WorkShare* share) {
+      flags->share = share;
+      Trial(*flags, *command, TypedOf(*command, *trial_flags), *metric_flags);
+    });
   });
 }
 

@@ -9,6 +9,7 @@
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
+#include "antigrasp/core/launch.h"
 
 namespace antigrasp {
 namespace {
@@ -41,12 +42,13 @@ bool InterruptRequested() { return g_interrupted != 0; }
 struct ConsoleObserver::Bar {
   std::string label;
   std::string detail;
-  bool terminal = isatty(STDERR_FILENO) != 0;
+  bool terminal = isatty(STDERR_FILENO) != 0, leads = LeadsJob();
   std::int64_t first = -1;  // items done when the bar began (a resumed phase starts in the middle)
   Clock::time_point start = Clock::now();
   Clock::time_point shown{};
 
   void Report(std::int64_t done, std::int64_t total) {
+    if (!leads) return;
     if (first < 0) first = done - 1;
     const bool last = done == total;
     const double wait = terminal ? 0.1 : 10.0;

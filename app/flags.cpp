@@ -71,6 +71,11 @@ void AddThreads(CLI::App* command, int* threads, const std::string& note) {
       ->capture_default_str();
 }
 
+void AddProcesses(CLI::App* command, int* processes) {
+  command->add_option("--processes", *processes, "on this machine, to share the work")
+      ->check(CLI::Range(1, 1024));
+}
+
 void AddOverwrite(CLI::App* command, bool* overwrite) {
   command->add_flag(
       "--overwrite", *overwrite,

@@ -79,6 +79,9 @@ void AddUnits(CLI::App* command, LengthUnit* units, const std::string& help);
 // --threads, 0 = all; `note` follows in its help: "; scores do not depend on it".
 void AddThreads(CLI::App* command, int* threads, const std::string& note = "");
 
+// --processes N of a command whose work is shared (core/work_share.h).
+void AddProcesses(CLI::App* command, int* processes);
+
 // --hardest N; 0 when it is not given.
 CLI::Option* AddHardestFlag(CLI::App* command, int* count, const std::string& help);
 

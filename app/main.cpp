@@ -12,17 +12,18 @@ void Name(const NetworkCommand& command, CLI::App* app) {
 }
 
 void AddCommands(CLI::App* app) {
-  AddDatasetCommand(app);
+  const JobRunner alone = [](int, const SharedRun& run) { run(nullptr); };
+  AddDatasetCommand(app, alone);
   Name(kTrain, app);
   Name(kSample, app);
   AddRemeshCommand(app);
-  AddEvaluateCommand(app);
+  AddEvaluateCommand(app, alone);
   AddCompareCommand(app);
   AddQualityCommand(app);
-  AddPerturbCommand(app);
+  AddPerturbCommand(app, alone);
   AddShapeCommand(app);
   AddPosesCommand(app);
-  AddTrialCommand(app);
+  AddTrialCommand(app, alone);
   AddGripperCommand(app);
   AddSheetCommand(app);
 #ifdef ANTIGRASP_HAS_REPORT

@@ -2,19 +2,34 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/kernels.h"
+#include "antigrasp/core/launch.h"
 
 namespace antigrasp {
 namespace {
 
 char** g_arguments = nullptr;
 constexpr int kKeepTheUsersOwn = 0;
+
+// Several processes speak to each other by LibTorch.
+bool SharesWork(int argc, char** argv) {
+  const std::string_view command = argc > 1 ? argv[1] : "";
+  if (command != "dataset" && command != "evaluate" && command != "perturb" && command != "trial") {
+    return false;
+  }
+  const bool asked = std::any_of(argv, argv + argc, [](const char* word) {
+    return std::string_view(word).starts_with("--processes");
+  });
+  return asked || LaunchOfEnvironment().has_value();
+}
 
 // The networks that were installed with this program, wherever the prefix was moved to since
 // (checkpoints/pretrained.h).
@@ -28,6 +43,7 @@ void TellOfInstalledNetworks(const std::filesystem::path& program) {
 }  // namespace
 
 bool NeedsNetworks(int argc, char** argv) {
+  if (SharesWork(argc, argv)) return true;
   const bool help = argc > 2 && std::strcmp(argv[1], "help") == 0;
   const char* command = argc > 1 ? argv[help ? 2 : 1] : "";
   for (const auto& [name, description] : {kTrain, kSample, kReport, kFigure, kGenerator}) {

@@ -21,7 +21,8 @@ inline constexpr NetworkCommand kFigure{
 inline constexpr NetworkCommand kGenerator{
     "generator", "Write the networks of a checkpoint alone, float16, to share and start from"};
 
-// Whether the arguments of main() are such a command or ask for its help.
+// Whether the arguments of main() are such a command or ask for its help, or several processes are
+// to share a command on meshes.
 bool NeedsNetworks(int argc, char** argv);
 
 // The process becomes the `antigrasp-networks` that lies beside its program, with the arguments of

@@ -1,13 +1,23 @@
-// antigrasp-networks: the commands that need LibTorch. `antigrasp` starts it; nobody else has to.
+// antigrasp-networks: the commands that need LibTorch, and those that several processes share.
+// `antigrasp` starts it; nobody else has to.
 #include <malloc.h>
 
 #include "antigrasp/app/commands.h"
+#include "antigrasp/app/console.h"
 #include "antigrasp/app/program.h"
+#include "antigrasp/ranks/run_shared.h"
 
 namespace antigrasp {
 namespace {
 
 void AddCommands(CLI::App* app) {
+  const JobRunner job = [](int processes, const SharedRun& run) {
+    RunShared(processes, &ThrowIfInterrupted, run);
+  };
+  AddDatasetCommand(app, job);
+  AddEvaluateCommand(app, job);
+  AddPerturbCommand(app, job);
+  AddTrialCommand(app, job);
   AddTrainCommand(app);
   AddSampleCommand(app);
 #ifdef ANTIGRASP_HAS_REPORT

@@ -123,6 +123,7 @@ int Parse(int argc, char** argv, const std::function<void(CLI::App*)>& add_comma
 int RunProgram(int argc, char** argv, const std::function<void(CLI::App*)>& add_commands) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("antigrasp"));
   spdlog::set_pattern("[%H:%M:%S] %^%v%$");
+  if (!LeadsJob()) spdlog::set_level(spdlog::level::err);  // rank 0 warns
   InstallSignalHandlers();
   try {
     const int code = Parse(argc, argv, add_commands);

@@ -1,5 +1,6 @@
 """What several processes gain on one machine, in turn in one run: bench/jobs.py ANTIGRASP [ROUNDS].
-Prints seconds (medians) and ratios: 2,500 samples drawn and scored, and an update at width 32 whose batch is 4 parts."""
+Prints seconds (medians) and ratios: 2,500 samples drawn and scored, an update at width 32 whose batch is 4 parts, and 500 objects
+that `evaluate` scores."""
 import os
 import re
 import statistics
@@ -18,27 +19,41 @@ TRAINING = ["--from-scratch", "--set", *QUIET, "model.width=32", "model.width_d=
 WAYS = {"one process, one thread": (1, 1), "two processes, one thread": (2, 1), "one process, two threads": (1, 2)}
 
 
-def seconds(settings, phase, processes, threads):
+def seconds(call, phase):
     """What the progress line of a phase says that it took."""
-    with tempfile.TemporaryDirectory() as folder:
-        call = [PROGRAM, "train", "configs/demo.toml", *settings, f"run.threads={threads}", "--processes", str(processes), "--out",
-                os.path.join(folder, "run")]
-        text = subprocess.run(call, check=True, capture_output=True, text=True).stderr
+    text = subprocess.run(call, check=True, capture_output=True, text=True).stderr
     took = [line for line in re.split(r"[\r\n]", text) if phase in line and "took" in line]
     minutes, rest = re.search(r"took (?:(\d+)m )?([0-9.]+)s", took[-1]).groups()
     return 60 * int(minutes or 0) + float(rest)
 
 
-def compare(title, settings, phase, scale):
+def trained(settings):
+    def call(folder, processes, threads):
+        return [PROGRAM, "train", "configs/demo.toml", *settings, f"run.threads={threads}", "--overwrite", "--processes", str(processes),
+                "--out", os.path.join(folder, "run")]
+    return call
+
+
+def evaluated(folder, processes, threads):
+    objects = os.path.join(folder, "objects.h5")
+    if not os.path.exists(objects):
+        subprocess.run([PROGRAM, "dataset", "make", "prisms", "--count", "500", "--out", objects], check=True, capture_output=True)
+    return [PROGRAM, "evaluate", objects, "--threads", str(threads), "--out", os.path.join(folder, "scores.csv"), "--processes",
+            str(processes)]
+
+
+def compare(title, call, phase, scale):
     took = {way: [] for way in WAYS}
-    for _ in range(ROUNDS):
-        for way, (processes, threads) in WAYS.items():
-            took[way].append(seconds(settings, phase, processes, threads) / scale)
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(ROUNDS):
+            for way, (processes, threads) in WAYS.items():
+                took[way].append(seconds(call(folder, processes, threads), phase) / scale)
     medians = {way: statistics.median(values) for way, values in took.items()}
     one = medians["one process, one thread"]
     for way, value in medians.items():
         print(f"{title}: {way}: {value:.2f} s, ratio {one / value:.2f}", flush=True)
 
 
-compare("2,500 samples scored", SCORING, "episode 0: scoring", 1)
-compare("an update of width 32", TRAINING, "episode 0: training", UPDATES)
+compare("500 objects evaluated", evaluated, "scoring", 1)
+compare("2,500 samples scored", trained(SCORING), "episode 0: scoring", 1)
+compare("an update of width 32", trained(TRAINING), "episode 0: training", UPDATES)

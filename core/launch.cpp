@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdlib>
@@ -113,6 +114,15 @@ std::optional<Launch> LaunchOfEnvironment() {
   return LaunchOfEnvironment([](const char* name) -> const char* { return std::getenv(name); });
 }
 
+bool LeadsJob() {
+  try {
+    const std::optional<Launch> launch = LaunchOfEnvironment();
+    return !launch || launch->leads();
+  } catch (const InputError&) {
+    return true;  // said where the job begins
+  }
+}
+
 int ProcessesHere() {
   try {
     const std::optional<Launch> launch = LaunchOfEnvironment();
@@ -120,6 +130,19 @@ int ProcessesHere() {
   } catch (const InputError&) {
     return 1;  // said where the job begins
   }
+}
+
+std::vector<std::string> EnvironmentAlone() {
+  constexpr std::array kOfRanks = {
+      "RANK=", "WORLD_SIZE=", "OMPI_COMM_WORLD_RANK=", "SLURM_PROCID="};
+  std::vector<std::string> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    const bool of_ranks = std::any_of(kOfRanks.begin(), kOfRanks.end(),
+                                      [&](const char* name) { return text.starts_with(name); });
+    if (!of_ranks) variables.emplace_back(text);
+  }
+  return variables;
 }
 
 std::string Speaker() {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace antigrasp {
 
@@ -33,8 +34,15 @@ using ReadVariable = std::function<const char*(const char* name)>;  // getenv
 std::optional<Launch> LaunchOfEnvironment(const ReadVariable& read);
 std::optional<Launch> LaunchOfEnvironment();
 
+// Whether nobody else shows progress and says what is to be said: false of ranks other than 0.
+bool LeadsJob();
+
 // How many of the job's processes are on this machine; 1 for a process that is alone.
 int ProcessesHere();
+
+// This process's environment, NAME=VALUE each, without what would make a program that it starts a
+// rank of its job.
+std::vector<std::string> EnvironmentAlone();
 
 // Who says something: "antigrasp", of several processes "antigrasp (rank 2 on node07)".
 std::string Speaker();

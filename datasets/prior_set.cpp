@@ -6,14 +6,16 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
-#include "antigrasp/core/ordered_stream.h"
+#include "antigrasp/core/shared_stream.h"
 #include "antigrasp/datasets/bottle.h"
 #include "antigrasp/datasets/grafted_solid.h"
+#include "antigrasp/sdf/pass_grid.h"
 #include "antigrasp/sdf/remesh.h"
 
 namespace antigrasp {
@@ -200,9 +202,10 @@ ShapeSet About(const PriorSetOptions& options) {
 }
 
 template <typename Take>  // take(name, grid)
-void StreamShapes(const PriorSetOptions& options, const Take& take, const ProgressFn& progress) {
-  StreamInOrder(
-      options.count, options.threads, [&](std::int64_t i) { return MakeShape(options, i); },
+void StreamShapes(WorkShare* share, const PriorSetOptions& options, const Take& take,
+                  const ProgressFn& progress) {
+  StreamShared(
+      share, options.count, options.threads, [&](std::int64_t i) { return MakeShape(options, i); },
       [&](std::int64_t i, SdfGrid grid) { take(NumberedName(options.kind, i), std::move(grid)); },
       progress);
 }
@@ -215,10 +218,11 @@ std::vector<std::string> PriorSetKinds() {
   return names;
 }
 
-ShapeSet MakePriorSet(const PriorSetOptions& options, const ProgressFn& progress) {
+ShapeSet MakePriorSet(const PriorSetOptions& options, const ProgressFn& progress,
+                      WorkShare* share) {
   ShapeSet set = About(options);
   StreamShapes(
-      options,
+      share, options,
       [&](std::string name, SdfGrid grid) {
         set.names.push_back(std::move(name));
         set.grids.push_back(std::move(grid));
@@ -233,12 +237,14 @@ std::string PriorSetText(const PriorSetOptions& options) {
 }
 
 void WritePriorSet(const std::filesystem::path& path, const PriorSetOptions& options,
-                   const ProgressFn& progress) {
-  ShapeSetWriter writer(path, About(options), static_cast<std::size_t>(options.count));
+                   const ProgressFn& progress, WorkShare* share) {
+  std::optional<ShapeSetWriter> writer;
+  const ShapeSet about = About(options);
+  if (!Helps(share)) writer.emplace(path, about, static_cast<std::size_t>(options.count));
   StreamShapes(
-      options, [&](std::string name, const SdfGrid& grid) { writer.Add(std::move(name), grid); },
-      progress);
-  writer.Commit();
+      share, options,
+      [&](std::string name, const SdfGrid& grid) { writer->Add(std::move(name), grid); }, progress);
+  if (writer) writer->Commit();
 }
 
 }  // namespace antigrasp

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "antigrasp/core/parallel.h"
+#include "antigrasp/core/work_share.h"
 #include "antigrasp/datasets/shape_set.h"
 
 namespace antigrasp {
@@ -26,12 +27,15 @@ struct PriorSetOptions {
 // three sizes vary), bottles (surfaces of revolution of six families, for those without ShapeNet).
 // Exact distances, surface inside the grid border, whole set scaled as VI-C says. Shape i depends
 // on (kind, seed, i) only, and its large part lies where it lies with both grafts.
-ShapeSet MakePriorSet(const PriorSetOptions& options, const ProgressFn& progress = nullptr);
+// The ranks of `share` make it together; one that helps gets a set without shapes.
+ShapeSet MakePriorSet(const PriorSetOptions& options, const ProgressFn& progress = nullptr,
+                      WorkShare* share = nullptr);
 
 std::string PriorSetText(const PriorSetOptions& options);  // one line for people
 
-// The same as an SDF file, shape by shape: memory does not grow with their number.
+// The same as an SDF file, shape by shape: memory does not grow with their number. One that helps
+// writes none.
 void WritePriorSet(const std::filesystem::path& path, const PriorSetOptions& options,
-                   const ProgressFn& progress = nullptr);
+                   const ProgressFn& progress = nullptr, WorkShare* share = nullptr);
 
 }  // namespace antigrasp

@@ -11,11 +11,13 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
-#include "antigrasp/core/ordered_stream.h"
+#include "antigrasp/core/shared_stream.h"
 #include "antigrasp/datasets/objects.h"
+#include "antigrasp/grasp_io/pass_grasps.h"
 #include "antigrasp/judge/given_table.h"
 #include "antigrasp/quality/given_grasps.h"
 #include "antigrasp/quality/object_size.h"
+#include "antigrasp/quality/pass_scores.h"
 
 namespace antigrasp {
 namespace {
@@ -113,6 +115,11 @@ struct ScoredGrasps {
   GraspSet set;  // where it is to be written
 };
 
+void PassFields(Passer& pass, ScoredGrasps& scored) {
+  pass(scored.status, scored.note, scored.extent, scored.scores, scored.tried,
+       scored.at_scale_of_file, scored.set);
+}
+
 // Of the grasps that could be scored.
 GraspSet SetOf(const std::string& name, double scale, const std::vector<GivenGrasp>& grasps,
                const ScoredGrasps& scored) {
@@ -179,28 +186,31 @@ GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
                        const MetricOptions& trial_metric, const PhysicsTrialOptions& trial,
                        RunObserver* observer) {
   const ObjectSource objects(request.inputs, GridUnit::kOfFiles, UnitToReadIn(metric));
-  const bool sampled = request.grasps.empty();
-  if (sampled && request.sampled.empty()) {
+  const bool sampled = request.grasps.empty(), helps = Helps(request.share);
+  std::vector<GivenGrasp> given = request.sampled;
+  if (sampled) TellAll(request.share, &given);
+  if (sampled && given.empty()) {
     throw InputError("no grasp to execute", request.inputs.front(), "objects that can be grasped");
   }
-  GraspsRead read = sampled ? GraspsRead{request.sampled, false}
+  GraspsRead read = sampled ? GraspsRead{std::move(given), false}
                             : ReadGraspFiles(request.grasps, request.output.about.base, metric);
   const bool of_mesh_files = read.of_mesh_files;
   const ByObject by = Sort(std::move(read), objects, request.grasps);
-  GraspFiles grasp_files(request.output, objects);
+  GraspFiles grasp_files(helps ? GraspOutput{} : request.output, objects);
+  const bool makes_sets = !request.output.path.empty();
   GivenReport report;
   GivenTable table(request.in_physics);
   UnlikelySizes sizes(metric);
   std::string first;         // object that is not usable, and why
   int at_scale_of_file = 0;  // objects
   std::optional<AtomicFile> file;
-  if (!request.out.empty() && !sampled) file.emplace(request.out);
+  if (!request.out.empty() && !sampled && !helps) file.emplace(request.out);
   // Objects side by side where there are many, else the executions of one.
   const int threads = request.threads > 0 ? request.threads : HardwareThreads();
-  const bool many = objects.size() >= 2 * threads;
+  const bool many = objects.size() >= 2 * threads * RanksOf(request.share);
   if (request.in_physics) PhysicsTrials(trial_metric, trial, request.seed, 1);  // refuses early
-  StreamInOrder(
-      objects.size(), many ? threads : 1,
+  StreamShared(
+      request.share, objects.size(), many ? threads : 1,
       [&](std::int64_t i) {
         std::vector<GivenGrasp> grasps = by.grasps[static_cast<std::size_t>(i)];
         ScoredGrasps scored;
@@ -224,7 +234,7 @@ GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
           PhysicsTrials trials(its_trial, trial, request.seed, many ? 1 : threads);
           TryGrasps(object.mesh, objects.stream(i), grasps, &trials, &scored);
         }
-        if (grasp_files.wanted()) scored.set = SetOf(object.name, scale, grasps, scored);
+        if (makes_sets) scored.set = SetOf(object.name, scale, grasps, scored);
         return scored;
       },
       [&](std::int64_t i, const ScoredGrasps& scored) {
@@ -246,6 +256,7 @@ GivenReport ScoreGiven(const GivenRequest& request, const MetricOptions& metric,
         }
       },
       observer->Phase("scoring grasps"));
+  if (helps) return report;
   if (!table.any_scored() && !first.empty()) {
     throw InputError("no object scored; " + first, request.inputs.front(), "a closed solid");
   }

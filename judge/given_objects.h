@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "antigrasp/core/observer.h"
+#include "antigrasp/core/work_share.h"
 #include "antigrasp/grasp_io/grasp_files.h"
 #include "antigrasp/quality/metric_options.h"
 #include "antigrasp/trial/physics_trial.h"
@@ -23,6 +24,8 @@ struct GivenRequest {
   int threads = 0;
   GraspOutput
       output;  // of the grasps with their labels; `about.base` is of the gripper that scores
+  // Whose ranks score together; rank 0 tells the others what was sampled. Those get no report.
+  WorkShare* share = nullptr;
 };
 
 // Grasps of an object as they were sampled and scored, to be executed: they score the same again.

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "antigrasp/core/passer.h"
+
 namespace antigrasp {
 namespace {
 
@@ -20,6 +22,10 @@ std::string PercentOf(int part, int all) {
 }
 
 }  // namespace
+
+void PassFields(Passer& pass, TriedGrasp& tried) {
+  pass(tried.status, tried.pose, tried.executions, tried.held);
+}
 
 GivenTable::GivenTable(bool in_physics) : in_physics_(in_physics), csv_(GivenColumns(in_physics)) {}
 

@@ -10,6 +10,8 @@
 
 namespace antigrasp {
 
+class Passer;
+
 // What a trial says of one given grasp.
 struct TriedGrasp {
   std::string status;      // "ok", or why it was not tried
@@ -17,6 +19,8 @@ struct TriedGrasp {
   int executions = 0;
   int held = 0;  // of these
 };
+
+void PassFields(Passer& pass, TriedGrasp& tried);
 
 // Given grasps as `evaluate --grasps-in` writes them (docs/formats.md), object by object.
 class GivenTable {

@@ -14,10 +14,10 @@
 #include <cstring>
 #include <ctime>
 #include <thread>
+#include <vector>
 
 #include "antigrasp/core/error.h"
-
-extern char** environ;
+#include "antigrasp/core/launch.h"
 
 namespace antigrasp {
 namespace {
@@ -84,7 +84,12 @@ LineProgram::LineProgram(const std::string& command) {
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::string shell = "sh", option = "-c", text = command;
   std::array<char*, 4> arguments = {shell.data(), option.data(), text.data(), nullptr};
-  const int error = posix_spawn(&pid_, "/bin/sh", &actions, &attributes, arguments.data(), environ);
+  std::vector<std::string> variables = EnvironmentAlone();
+  std::vector<char*> environment;
+  for (std::string& variable : variables) environment.push_back(variable.data());
+  environment.push_back(nullptr);
+  const int error =
+      posix_spawn(&pid_, "/bin/sh", &actions, &attributes, arguments.data(), environment.data());
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
   CloseEnd(&to[0]);

@@ -1,72 +1,174 @@
 #include "antigrasp/judge/score_objects.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "antigrasp/core/error.h"
-#include "antigrasp/core/ordered_stream.h"
+#include "antigrasp/core/shared_stream.h"
+#include "antigrasp/mesh/pass_mesh.h"
+#include "antigrasp/quality/pass_scores.h"
 #include "antigrasp/quality/sampling_effort.h"
 
 namespace antigrasp {
 namespace {
 
-// Scored by the metric, waiting for the judge: a batch's meshes are all that is kept of a set.
-class JudgedRows {
+// An object scored by the metric.
+struct Item {
+  ScoredObject scored;
+  std::optional<ScoredObject> original;
+  bool usable = false;
+  TriangleMesh mesh;  // of a usable object, until it is judged
+};
+void PassFields(Passer& pass, Item& item) {
+  pass(item.scored, item.original, item.usable, item.mesh);
+}
+
+// Neighbours that were judged together, and the judge after them.
+struct JudgedItems {
+  std::vector<Item> items;
+  std::vector<Verdict> verdicts;  // one each
+  std::string stopped;
+  std::vector<std::string> notes;
+  int rank = 0;  // whose judge it was
+};
+void PassFields(Passer& pass, JudgedItems& judged) {
+  pass(judged.items, judged.verdicts, judged.stopped, judged.notes, judged.rank);
+}
+
+class Scorer {
  public:
-  JudgedRows(const ObjectSource& objects, Judge* judge, const TakeScored& take, ScoredSet* set)
-      : objects_(objects), judge_(judge), take_(take), set_(*set) {}
+  Scorer(const ObjectSource& objects, const ObjectSource* originals,
+         const std::vector<std::int64_t>& original_of, const Scoring& scoring)
+      : objects_(objects), originals_(originals), original_of_(original_of), scoring_(scoring) {}
 
-  void Add(std::int64_t place, ScoredObject scored, ScoreRow row, TriangleMesh mesh) {
-    if (judge_ == nullptr) return take_(scored, row);
-    waiting_.push_back({place, std::move(scored), std::move(row), std::move(mesh)});
-    if (waiting_.size() >= judge_->BatchSize()) Flush();
+  Item Score(std::int64_t i) const {
+    const std::uint64_t stream = objects_.stream(i);
+    Item item;
+    if (originals_ != nullptr) {
+      const std::int64_t place = original_of_[static_cast<std::size_t>(i)];
+      item.original = ScoreObject(originals_->Load(place), stream, scoring_);
+    }
+    InputObject object = objects_.Load(i);
+    item.scored = ScoreObject(object, stream, scoring_);
+    item.usable = object.ok();
+    if (scoring_.judge != nullptr && item.usable) item.mesh = std::move(object.mesh);
+    return item;
   }
 
-  void Flush() {
+  // `first`: of these.
+  JudgedItems Judge(std::int64_t first, std::vector<Item> items) const {
+    JudgedItems judged;
     std::vector<JudgedObject> shown;
-    for (const Waiting& one : waiting_) {
-      if (Usable(one)) {
-        shown.push_back({objects_.name(one.place), &one.mesh, objects_.stream(one.place)});
-      }
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      const std::int64_t i = first + static_cast<std::int64_t>(k);
+      if (!items[k].usable) continue;
+      shown.push_back({objects_.name(i), &items[k].mesh, objects_.stream(i)});
     }
-    if (waiting_.empty()) return;
-    const std::vector<Verdict> verdicts = judge_->Score(shown);
+    const std::vector<Verdict> verdicts = scoring_.judge->Score(shown);
     auto next = verdicts.begin();
-    for (Waiting& one : waiting_) {
-      const Verdict verdict = Usable(one) ? *next++ : Verdict::None(one.scored.status);
-      if (Usable(one)) set_.AddVerdict(verdict);
-      scores_.push_back(verdict.score.value_or(std::nan("")));
-      one.row.extras.emplace_back("judge", scores_.back());
-      one.row.texts.emplace_back("judge_status", verdict.status);
-      take_(one.scored, one.row);
+    for (Item& item : items) {
+      judged.verdicts.push_back(item.usable ? *next++ : Verdict::None(item.scored.status));
+      item.mesh = {};
     }
-    waiting_.clear();
-  }
-
-  // "judge NAME: 12 scored, 1 late, mean 0.71 +-0.05 (95 %)".
-  std::string Text() const {
-    const MeanInterval mean = MeanWithInterval(scores_);
-    return "judge " + judge_->Name() + ": " + set_.verdicts().Text() +
-           (mean.count > 0 ? ", mean " + MeanText(mean, 5) : "");
+    judged.items = std::move(items);
+    judged.stopped = scoring_.judge->Stopped();
+    judged.notes = scoring_.judge->Notes();
+    return judged;
   }
 
  private:
-  struct Waiting {
-    std::int64_t place;
-    ScoredObject scored;
-    ScoreRow row;
-    TriangleMesh mesh;
-  };
-  static bool Usable(const Waiting& one) { return !one.mesh.faces.empty(); }
-
   const ObjectSource& objects_;
-  Judge* judge_;
+  const ObjectSource* originals_;
+  const std::vector<std::int64_t>& original_of_;
+  const Scoring& scoring_;
+};
+
+// What has been scored, in the order of the set.
+class Rows {
+ public:
+  Rows(const Scorer& scorer, const Scoring& scoring, const TakeScored& take, ScoredSet* set)
+      : scorer_(scorer), scoring_(scoring), take_(take), set_(*set) {}
+
+  // Waits for the judge: a batch's meshes are all that is kept of a set.
+  void Add(std::int64_t place, Item item, bool last) {
+    if (scoring_.judge == nullptr) return take_(item.scored, RowOf(item));
+    waiting_.push_back(std::move(item));
+    if (!last && waiting_.size() < scoring_.judge->BatchSize()) return;
+    const std::int64_t first = place + 1 - std::ssize(waiting_);
+    Add(scorer_.Judge(first, std::exchange(waiting_, {})));
+  }
+
+  void Add(const JudgedItems& judged) {
+    for (std::size_t k = 0; k < judged.items.size(); ++k) {
+      const Verdict& verdict = judged.verdicts[k];
+      ScoreRow row = RowOf(judged.items[k]);
+      if (judged.items[k].usable) set_.AddVerdict(verdict);
+      scores_.push_back(verdict.score.value_or(std::nan("")));
+      row.extras.emplace_back("judge", scores_.back());
+      row.texts.emplace_back("judge_status", verdict.status);
+      take_(judged.items[k].scored, row);
+    }
+    set_.JudgeStopped(judged.stopped);
+    notes_[judged.rank] = judged.notes;
+  }
+
+  // What is said of the judge.
+  void Finish() {
+    if (scoring_.judge == nullptr) return;
+    const MeanInterval mean = MeanWithInterval(scores_);
+    set_.AddLine("judge " + scoring_.judge->Name() + ": " + set_.verdicts().Text() +
+                 (mean.count > 0 ? ", mean " + MeanText(mean, 5) : ""));
+    for (const auto& [rank, notes] : notes_) {
+      const std::string of = rank == 0 ? "judge: " : "judge of rank " + std::to_string(rank) + ": ";
+      for (const std::string& note : notes) scoring_.warn(of + note);
+    }
+  }
+
+ private:
+  ScoreRow RowOf(const Item& item) {
+    return set_.Add(item.scored, item.original ? &*item.original : nullptr);
+  }
+
+  const Scorer& scorer_;
+  const Scoring& scoring_;
   const TakeScored& take_;
   ScoredSet& set_;
-  std::vector<Waiting> waiting_;
+  std::vector<Item> waiting_;
   std::vector<double> scores_;
+  std::map<int, std::vector<std::string>> notes_;  // by rank
 };
+
+// Objects one by one; judged by rank 0 as they come, or, where there are several ranks, by each in
+// batches of its own.
+void StreamScored(const Scorer& scorer, std::int64_t count, const Scoring& scoring, Rows* rows) {
+  const ProgressFn progress = scoring.observer->Phase("scoring");
+  WorkShare* const share = scoring.share;
+  if (share == nullptr || scoring.judge == nullptr) {
+    StreamShared(
+        share, count, scoring.threads, [&](std::int64_t i) { return scorer.Score(i); },
+        [&](std::int64_t i, Item item) { rows->Add(i, std::move(item), i + 1 == count); },
+        progress);
+    return;
+  }
+  const auto most = static_cast<std::int64_t>(scoring.judge->BatchSize());
+  const std::int64_t batch = std::max<std::int64_t>(1, std::min(most, count / (8 * share->size())));
+  StreamShared(
+      share, (count + batch - 1) / batch, 1,
+      [&](std::int64_t b) {
+        std::vector<Item> items(static_cast<std::size_t>(std::min(batch, count - b * batch)));
+        ParallelFor(std::ssize(items), scoring.threads, [&](std::int64_t k) {
+          items[static_cast<std::size_t>(k)] = scorer.Score(b * batch + k);
+        });
+        JudgedItems judged = scorer.Judge(b * batch, std::move(items));
+        judged.rank = share->rank();
+        return judged;
+      },
+      [&](std::int64_t, const JudgedItems& judged) { rows->Add(judged); },
+      [&](std::int64_t done, std::int64_t) { progress(std::min(done * batch, count), count); });
+}
 
 }  // namespace
 
@@ -80,51 +182,46 @@ ScoredObject ScoreObject(const InputObject& object, std::uint64_t stream, const 
 ScoredSet ScoreObjects(const ObjectSource& objects, const std::string& where,
                        const ObjectSource* originals, const std::vector<std::int64_t>& original_of,
                        const Scoring& scoring, const TakeScored& take) {
-  struct Item {
-    ScoredObject scored;
-    std::optional<ScoredObject> original;
-    TriangleMesh mesh;  // for the judge, of a usable object
-  };
   ScoredSet set(scoring.metric, scoring.egad);
-  JudgedRows rows(objects, scoring.judge, take, &set);
-  StreamInOrder(
-      objects.size(), scoring.threads,
-      [&](std::int64_t i) {
-        const std::uint64_t stream = objects.stream(i);
-        Item item;
-        if (originals != nullptr) {
-          const std::int64_t place = original_of[static_cast<std::size_t>(i)];
-          item.original = ScoreObject(originals->Load(place), stream, scoring);
-        }
-        InputObject object = objects.Load(i);
-        item.scored = ScoreObject(object, stream, scoring);
-        if (scoring.judge != nullptr && object.ok()) item.mesh = std::move(object.mesh);
-        return item;
-      },
-      [&](std::int64_t i, Item item) {
-        ScoreRow row = set.Add(item.scored, item.original ? &*item.original : nullptr);
-        rows.Add(i, std::move(item.scored), std::move(row), std::move(item.mesh));
-        if (i + 1 == objects.size()) rows.Flush();
-      },
-      scoring.observer->Phase("scoring"));
+  const Scorer scorer(objects, originals, original_of, scoring);
+  Rows rows(scorer, scoring, take, &set);
+  StreamScored(scorer, objects.size(), scoring, &rows);
+  if (Helps(scoring.share)) return set;
   const std::string shared = SharedDrawsText(objects.streams());
   if (!shared.empty()) set.AddNote(shared);
   for (const std::string& warning : set.Warnings()) scoring.warn(warning);
-  if (scoring.judge != nullptr) {
-    set.AddLine(rows.Text());
-    for (const std::string& note : scoring.judge->Notes()) scoring.warn("judge: " + note);
-  }
+  rows.Finish();
   set.RequireAScore(where);
   return set;
 }
 
 void RequireAVerdict(const ScoredSet& set, const Judge* judge) {
   if (judge == nullptr) return;
-  if (!judge->Stopped().empty()) throw RuntimeFailure("the judge stopped: " + judge->Stopped());
+  if (!set.stopped().empty()) throw RuntimeFailure("the judge stopped: " + set.stopped());
   if (set.verdicts().scored() > 0) return;
   throw InputError("the judge scored no object: " + set.verdicts().Text(),
                    "--judge " + judge->Name(), "a finite score of at least one");
 }
+
+namespace {
+
+// `places`: rank 0's, who tells the others.
+std::vector<Graspability> ScoreAgain(const ObjectSource& objects, std::vector<std::int64_t> places,
+                                     const Scoring& scoring) {
+  TellAll(scoring.share, &places);
+  std::vector<Graspability> scores;
+  StreamShared(
+      scoring.share, std::ssize(places), scoring.threads,
+      [&](std::int64_t k) {
+        const std::int64_t place = places[static_cast<std::size_t>(k)];
+        return ScoreObject(objects.Load(place), objects.stream(place), scoring).score;
+      },
+      [&](std::int64_t, Graspability score) { scores.push_back(std::move(score)); },
+      scoring.observer->Phase("scoring the hardest again"));
+  return scores;
+}
+
+}  // namespace
 
 HardestOfSet FindHardest(const ObjectSource& objects, const std::string& where, int count,
                          const Scoring& scoring) {
@@ -138,14 +235,15 @@ HardestOfSet FindHardest(const ObjectSource& objects, const std::string& where, 
   Scoring fresh = scoring;
   fresh.seed = FreshSeed(scoring.seed);
   if (!scoring.effort_given) RaiseEffortForFew(1, &fresh.metric);
-  HardestOfSet found{
-      FindHardest(
-          std::move(rows), count,
-          [&](std::int64_t place) {
-            return ScoreObject(objects.Load(place), objects.stream(place), fresh).score;
-          },
-          scoring.threads, scoring.observer->Phase("scoring the hardest again")),
-      set.Summary(scoring.effort_given)};
+  if (Helps(scoring.share)) {
+    ScoreAgain(objects, {}, fresh);
+    return {};
+  }
+  HardestOfSet found{FindHardest(std::move(rows), count,
+                                 [&](const std::vector<std::int64_t>& places) {
+                                   return ScoreAgain(objects, places, fresh);
+                                 }),
+                     set.Summary(scoring.effort_given)};
   if (found.objects.empty()) {
     throw InputError("no object has a grasp; " + FirstNames(found.no_grasps), where,
                      "objects that the gripper can hold");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "antigrasp/core/observer.h"
+#include "antigrasp/core/work_share.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/judge/object_notes.h"
 #include "antigrasp/quality/hardest.h"
@@ -22,7 +23,8 @@ struct Scoring {
   int threads = 0;
   RunObserver* observer = nullptr;  // needed
   WarnFn warn = nullptr;            // needed; before the result
-  Judge* judge = nullptr;  // scores every usable object, too: columns judge and judge_status
+  Judge* judge = nullptr;      // scores every usable object, too: columns judge and judge_status
+  WorkShare* share = nullptr;  // whose ranks score together, each with a judge of its own
 };
 
 // Draws from the stream of number `stream`: the object's own, or for a pair that of one of the two.
@@ -31,7 +33,7 @@ ScoredObject ScoreObject(const InputObject& object, std::uint64_t stream, const 
 // Object by object in their order, each with its original where there are any (`original_of`: its
 // place there); `take` gets each with its row of scores.csv. Warns; InputError when none has a
 // score, of the input `where`. Memory does not grow with the set but for some hundred bytes an
-// object.
+// object. On a rank that helps nothing is taken, and the set is empty.
 using TakeScored = std::function<void(const ScoredObject&, const ScoreRow&)>;
 ScoredSet ScoreObjects(const ObjectSource& objects, const std::string& where,
                        const ObjectSource* originals, const std::vector<std::int64_t>& original_of,
@@ -42,7 +44,8 @@ ScoredSet ScoreObjects(const ObjectSource& objects, const std::string& where,
 void RequireAVerdict(const ScoredSet& set, const Judge* judge);
 
 // The N hardest of the objects, scored again, and what is to be said of it. The second time they
-// are few, and get as many grasps as few objects do. InputError when none has a grasp.
+// are few, and get as many grasps as few objects do. InputError when none has a grasp. Nothing on a
+// rank that helps.
 struct HardestOfSet : HardestObjects {
   std::vector<std::string> summary;
 };

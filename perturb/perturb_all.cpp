@@ -6,6 +6,8 @@
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/parallel.h"
+#include "antigrasp/core/shared_stream.h"
+#include "antigrasp/perturb/pass_perturbed.h"
 
 namespace antigrasp {
 namespace {
@@ -38,27 +40,49 @@ class SharedProgress {
 std::vector<PerturbedObject> PerturbAll(std::vector<InputObject> inputs,
                                         const PerturbSettings& settings, int threads,
                                         const std::function<bool()>& stop,
-                                        const ProgressFn& progress) {
+                                        const ProgressFn& progress, WorkShare* share) {
   std::vector<PerturbedObject> objects(inputs.size());
-  SharedProgress shared(inputs.size(), progress);
-  ParallelFor(std::ssize(inputs), threads, [&](std::int64_t i) {
-    PerturbedObject& item = objects[static_cast<std::size_t>(i)];
-    item.object = std::move(inputs[static_cast<std::size_t>(i)]);
-    std::int64_t at = 0;
-    try {
-      if (item.object.ok()) {
-        item.scored = PerturbAndScore(item.object.mesh, settings, item.object.stream,
-                                      [&](std::int64_t done, std::int64_t total) {
-                                        if (stop()) throw Interrupted();
-                                        // The scores before and after take the rest.
-                                        shared.Report(0.99 * double(done) / double(total), &at);
-                                      });
-      }
-      shared.Report(1.0, &at);
-    } catch (const Interrupted&) {
-      item.interrupted = item.scored.result.mesh.faces.empty();
+  for (std::size_t i = 0; i < inputs.size(); ++i) objects[i].object = std::move(inputs[i]);
+  SharedProgress shared(objects.size(), progress);
+  std::vector<std::int64_t> at(objects.size(), 0);
+  const auto perturb = [&](std::int64_t i) {
+    const InputObject& object = objects[static_cast<std::size_t>(i)].object;
+    if (!object.ok()) return ScoredPerturbation{};
+    return PerturbAndScore(
+        object.mesh, settings, object.stream, [&](std::int64_t done, std::int64_t total) {
+          if (stop()) throw Interrupted();
+          if (Helps(share)) return;
+          // The scores before and after take the rest.
+          shared.Report(0.99 * double(done) / double(total), &at[static_cast<std::size_t>(i)]);
+        });
+  };
+  std::vector<char> done(objects.size(), 0);
+  const auto take = [&](std::int64_t i, ScoredPerturbation scored) {
+    const auto slot = static_cast<std::size_t>(i);
+    objects[slot].scored = std::move(scored);
+    done[slot] = 1;
+    shared.Report(1.0, &at[slot]);
+  };
+  try {
+    if (share != nullptr) {
+      const ProgressFn pause = [&](std::int64_t, std::int64_t) {
+        if (stop()) throw Interrupted();
+      };
+      StreamShared(share, std::ssize(objects), threads, perturb, take, pause);
+    } else {
+      ParallelFor(std::ssize(objects), threads, [&](std::int64_t i) {
+        try {
+          take(i, perturb(i));
+        } catch (const Interrupted&) {  // others may be done all the same
+        }
+      });
     }
-  });
+  } catch (const Interrupted&) {
+    if (Helps(share)) throw;
+  }
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    objects[i].interrupted = done[i] == 0;
+  }
   return objects;
 }
 

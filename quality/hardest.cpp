@@ -9,8 +9,7 @@
 
 namespace antigrasp {
 
-HardestObjects FindHardest(std::vector<ScoreRow> rows, int count, const ScoreAgain& again,
-                           int threads, const ProgressFn& progress) {
+HardestObjects FindHardest(std::vector<ScoreRow> rows, int count, const ScoresAgain& again) {
   HardestObjects found;
   found.of = std::ssize(rows);
   std::vector<HardestObject>& hardest = found.objects;
@@ -28,17 +27,16 @@ HardestObjects FindHardest(std::vector<ScoreRow> rows, int count, const ScoreAga
     return std::tie(a.chosen_by, a.row.object) < std::tie(b.chosen_by, b.row.object);
   });
   hardest.resize(std::min(hardest.size(), static_cast<std::size_t>(count)));
-  ParallelFor(
-      std::ssize(hardest), threads,
-      [&](std::int64_t i) {
-        HardestObject& object = hardest[static_cast<std::size_t>(i)];
-        const Graspability fresh = again(object.place);
-        object.fresh = fresh.value;
-        object.row.extras.emplace_back("graspability_fresh_draws", fresh.value);
-        object.row.extras.emplace_back("fresh_ci_low", fresh.ci_low);
-        object.row.extras.emplace_back("fresh_ci_high", fresh.ci_high);
-      },
-      progress);
+  std::vector<std::int64_t> places;
+  for (const HardestObject& object : hardest) places.push_back(object.place);
+  const std::vector<Graspability> scores = again(places);
+  for (std::size_t i = 0; i < hardest.size(); ++i) {
+    hardest[i].fresh = scores[i].value;
+    auto& extras = hardest[i].row.extras;
+    extras.emplace_back("graspability_fresh_draws", scores[i].value);
+    extras.emplace_back("fresh_ci_low", scores[i].ci_low);
+    extras.emplace_back("fresh_ci_high", scores[i].ci_high);
+  }
   return found;
 }
 

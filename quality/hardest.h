@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "antigrasp/core/parallel.h"
 #include "antigrasp/quality/score_table.h"
 
 namespace antigrasp {
@@ -27,14 +26,14 @@ struct HardestObjects {
   std::int64_t of = 0;  // all
 };
 
-// Scores the object of this place in the set once more, with FreshSeed; any thread may call.
-using ScoreAgain = std::function<Graspability(std::int64_t place)>;
+// Scores the objects of these places in the set once more, with FreshSeed.
+using ScoresAgain =
+    std::function<std::vector<Graspability>(const std::vector<std::int64_t>& places)>;
 
 // The objects with the `count` lowest graspabilities of those that have a grasp; of equal ones by
 // name, so that no order of the objects matters. All when there are fewer. `rows` are those of the
 // whole set.
-HardestObjects FindHardest(std::vector<ScoreRow> rows, int count, const ScoreAgain& again,
-                           int threads, const ProgressFn& progress);
+HardestObjects FindHardest(std::vector<ScoreRow> rows, int count, const ScoresAgain& again);
 
 // Their rows as scores.csv.
 std::string HardestCsv(const HardestObjects& hardest);

@@ -30,6 +30,9 @@ class ScoredSet {
   // What a judge said of an object, too.
   void AddVerdict(const Verdict& verdict) { verdicts_.Add(verdict); }
   const VerdictCount& verdicts() const { return verdicts_; }
+  // Why a judge scored no more; the first time it counts. Empty: it went on.
+  void JudgeStopped(const std::string& why) { stopped_ = stopped_.empty() ? why : stopped_; }
+  const std::string& stopped() const { return stopped_; }
 
   // A line for the end of the summary.
   void AddLine(std::string line) { lines_.push_back(std::move(line)); }
@@ -53,6 +56,7 @@ class ScoredSet {
   std::vector<std::string> no_grasps_;
   std::vector<std::string> notes_, lines_;
   VerdictCount verdicts_;
+  std::string stopped_;
   CandidateCount candidates_;
   UnlikelySizes sizes_;
   // Of an only object, and of an only pair: what its grasps say about how sure its numbers are.

@@ -98,6 +98,7 @@ class GlooGroup : public RankGroup {
   std::int64_t TakeNext(const std::string& counter, std::int64_t count) override;
   void Put(const std::string& name, const std::string& bytes) override;
   std::string Wait(const std::string& name) override;
+  bool Has(const std::string& name) override;
 
  private:
   StorePtr Prefixed(const Launch& launch, const StorePtr& store) const;
@@ -287,6 +288,10 @@ std::string GlooGroup::Wait(const std::string& name) {
   const std::vector<std::uint8_t> bytes = ToOthers([&] { return store_->get("put/" + name); });
   store_->deleteKey("put/" + name);
   return {bytes.begin(), bytes.end()};
+}
+
+bool GlooGroup::Has(const std::string& name) {
+  return ToOthers([&] { return store_->check({"put/" + name}); });
 }
 
 }  // namespace

@@ -13,17 +13,13 @@
 #include "antigrasp/core/parallel.h"
 
 namespace antigrasp {
-namespace {
 
-// The words that this program was called with.
 std::vector<std::string> OwnArguments() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::vector<std::string> words;
   for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
   return words;
 }
-
-}  // namespace
 
 void SayOfRank(const std::string& line) {
   std::fprintf(stderr, "%s: %s\n", Speaker().c_str(), line.c_str());

@@ -21,6 +21,9 @@ class Ranks {
   std::unique_ptr<RankGroup> group_;
 };
 
+// The words that this program was called with, its own name first.
+std::vector<std::string> OwnArguments();
+
 // A line to standard error that says which rank it is of.
 void SayOfRank(const std::string& line);
 

@@ -56,6 +56,7 @@ class RankGroup {
   // Bytes for whoever asks; asking waits, and takes them away.
   virtual void Put(const std::string& name, const std::string& bytes) = 0;
   virtual std::string Wait(const std::string& name) = 0;
+  virtual bool Has(const std::string& name) = 0;  // whether Wait would not wait
 
   // "sent 12.3 MB in 456 messages": what a job costs the network, by this rank.
   std::string SentText() const;

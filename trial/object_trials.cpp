@@ -7,10 +7,11 @@
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
-#include "antigrasp/core/ordered_stream.h"
 #include "antigrasp/core/rng.h"
+#include "antigrasp/core/shared_stream.h"
 #include "antigrasp/datasets/objects.h"
 #include "antigrasp/quality/object_size.h"
+#include "antigrasp/trial/pass_trials.h"
 #include "antigrasp/trial/trial_results.h"
 
 namespace antigrasp {
@@ -34,14 +35,15 @@ struct Side {
 class Call {
  public:
   Call(const PhysicsTrialRequest& request, const ObjectSource& objects, const MetricOptions& metric,
-       const PhysicsTrialOptions& options, RunObserver* observer, TrialResults* results,
-       PhysicsTrialReport* report)
+       const PhysicsTrialOptions& options, RunObserver* observer, std::int64_t done,
+       TrialResults* results, PhysicsTrialReport* report)
       : request_(request),
         objects_(objects),
         metric_(metric),
         options_(options),
         protocol_(ProtocolOf(options.protocol)),
         observer_(*observer),
+        done_(done),
         results_(*results),
         report_(*report),
         sizes_(metric) {}
@@ -58,7 +60,7 @@ class Call {
       if (report_.interrupted) break;
     }
     for (const std::string& text : sizes_.Texts()) report_.warnings.push_back(text);
-    if (any_share_ || !results_.finished()) return;
+    if (any_share_ || !results_.finished() || Helps(request_.share)) return;
     throw InputError("no object could be tried; " + first_, request_.inputs.front(),
                      "a closed solid that the gripper reaches");
   }
@@ -72,7 +74,11 @@ class Call {
     std::string note;
     Eigen::Vector3d extent = Eigen::Vector3d::Zero();  // zero: not loaded
     std::uint64_t mesh = 0;                            // hash
-    bool done = false;                                 // before this call
+    bool done = false;                                 // before this call: no summary
+    friend void PassFields(Passer& pass, Tried& tried) {
+      pass(tried.summary, tried.trial, tried.replays, tried.note, tried.extent, tried.mesh,
+           tried.done);
+    }
   };
 
   void AtMass(const std::vector<Side>& sides, const char* masses, double mass) {
@@ -81,22 +87,26 @@ class Call {
     const auto side_count = std::ssize(sides), count = objects_.size() * side_count;
     // Objects side by side where there are many, else the grasps of one after another.
     const int threads = request_.threads > 0 ? request_.threads : HardwareThreads();
-    const bool many = count >= 2 * threads;
+    const bool many = count >= 2 * threads * RanksOf(request_.share);
     std::vector<std::vector<TrialSummary>> found(sides.size());
     const auto run_of = [&](std::int64_t i) {
       const Side& side = sides[static_cast<std::size_t>(i % side_count)];
       return TrialRun{ChoiceName(options_.protocol), side.name, masses, metric_.friction};
     };
-    const std::size_t first = results_.added();
+    const std::int64_t first = trials_;
+    trials_ += count;
     try {
-      StreamInOrder(
-          count, many ? threads : 1,
+      StreamShared(
+          request_.share, count, many ? threads : 1,
           [&](std::int64_t i) {
             return TryOne(sides[static_cast<std::size_t>(i % side_count)], i / side_count,
-                          run_of(i), first + static_cast<std::size_t>(i), options,
-                          many ? 1 : threads);
+                          run_of(i), first + i, options, many ? 1 : threads);
           },
-          [&](std::int64_t i, const Tried& tried) {
+          [&](std::int64_t i, Tried tried) {
+            if (tried.done) {
+              TakeDone(results_.done()[static_cast<std::size_t>(first + i)],
+                       objects_.name(i / side_count), run_of(i), &tried);
+            }
             found[static_cast<std::size_t>(i % side_count)].push_back(tried.summary);
             Record(run_of(i), tried);
           },
@@ -125,33 +135,35 @@ class Call {
   }
 
   // `number`: which trial of the call it is.
-  Tried TryOne(const Side& side, std::int64_t i, const TrialRun& run, std::size_t number,
+  Tried TryOne(const Side& side, std::int64_t i, const TrialRun& run, std::int64_t number,
                const PhysicsTrialOptions& options, int threads) const {
     const std::string& name = objects_.name(i);
     const InputObject object = side.source.Load(side.places[static_cast<std::size_t>(i)]);
     Tried tried;
     if (!object.note.empty()) tried.note = object.name + ": " + object.note;
     tried.mesh = MeshHash(object.mesh);
-    tried.done = number < results_.done().size();
+    tried.done = number < done_;
     if (object.ok()) tried.extent = Bounds(object.mesh).Extent();
-    if (tried.done) {
-      const TrialRow& row = results_.done()[number];
-      if (row.summary.object != name || row.run != run) tried.mesh = 0;  // another object's
-      tried.summary = row.summary;
-      return tried;
-    }
+    if (tried.done) return tried;
     tried.summary = NotTried(name, object.status, protocol_);
     if (!object.ok()) return tried;
     PhysicsTrials trials(metric_, options, request_.seed, threads);
     tried.trial = trials.Try(object.mesh, objects_.stream(i));
     tried.summary = SummaryOf(name, tried.trial, protocol_);
     // Of a comparison the replays at own mass are enough.
-    if (!results_.keeps_replays() || (run.masses == "equal" && options_.mass == 0.0)) return tried;
+    if (request_.out.empty() || (run.masses == "equal" && options_.mass == 0.0)) return tried;
     for (const auto& [grasp, draw] : WorthAReplay(tried.trial, request_.replays)) {
       tried.replays.push_back(
           ReplayText(name, run.side, &trials, options_.physics.tip, tried.trial, grasp, draw));
     }
     return tried;
+  }
+
+  // What is in the folder already.
+  static void TakeDone(const TrialRow& row, const std::string& name, const TrialRun& run,
+                       Tried* tried) {
+    if (row.summary.object != name || row.run != run) tried->mesh = 0;  // another object's
+    tried->summary = row.summary;
   }
 
   void Record(const TrialRun& run, const Tried& tried) {
@@ -172,6 +184,7 @@ class Call {
   PhysicsTrialOptions options_;
   Protocol protocol_;
   RunObserver& observer_;
+  std::int64_t done_, trials_ = 0;  // before this call, and given out so far
   TrialResults& results_;
   PhysicsTrialReport& report_;
   UnlikelySizes sizes_;
@@ -224,9 +237,14 @@ PhysicsTrialReport TryInPhysics(const PhysicsTrialRequest& request, const Metric
   const std::size_t masses = sides.size() > 1 && options.mass == 0.0 ? 2 : 1;
   const std::size_t of =
       request.frictions.size() * masses * sides.size() * static_cast<std::size_t>(objects.size());
-  TrialResults results(request, ProtocolOf(options.protocol), objects,
+  PhysicsTrialRequest written = request;
+  if (Helps(request.share)) written.out.clear();
+  TrialResults results(written, ProtocolOf(options.protocol), objects,
                        Constants(request, metric, options), of);
-  Call(request, objects, metric, options, observer, &results, &report).Run(sides);
+  std::int64_t done = std::ssize(results.done());
+  TellAll(request.share, &done);
+  Call(request, objects, metric, options, observer, done, &results, &report).Run(sides);
+  if (Helps(request.share)) return report;
   if (!results.finished() && results.added() <= results.done().size()) throw Interrupted();
   results.Commit();
   report.interrupted = !results.finished();  // nothing is missing when it was the last one

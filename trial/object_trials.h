@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "antigrasp/core/observer.h"
+#include "antigrasp/core/work_share.h"
 #include "antigrasp/quality/metric_options.h"
 #include "antigrasp/trial/physics_trial.h"
 
@@ -20,6 +21,7 @@ struct PhysicsTrialRequest {
   bool overwrite = false;
   std::uint64_t seed = 1;
   int threads = 0;
+  WorkShare* share = nullptr;  // whose ranks try together; those that help get no report
 };
 
 struct PhysicsTrialReport {

@@ -41,7 +41,6 @@ class TrialResults {
   void Add(const TrialRun& run, const TrialSummary& summary, const PhysicsTrial* trial,
            const std::vector<std::string>& replays, std::uint64_t mesh);
   MeansTable* means() { return &means_; }
-  bool keeps_replays() const { return replays_file_.has_value(); }
   std::uint64_t added() const { return unfinished_.done; }
   bool finished() const { return unfinished_.done == unfinished_.of; }
   // Fills the folder, if there is one.

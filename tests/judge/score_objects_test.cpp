@@ -85,11 +85,10 @@ TEST(RequireAVerdict, RefusesAJudgeThatScoredNothingAndNamesWhy) {
                  "the judge scored no object: 0 scored, 2 no score, 1 late (--judge triangles): "
                  "expected a finite score of at least one");
   }
-  judge.stopped_ = "it died";
-  EXPECT_THROW(RequireAVerdict(set, &judge), RuntimeFailure);
-  judge.stopped_.clear();
   set.AddVerdict(Verdict::Of(0.5));
   RequireAVerdict(set, &judge);
+  set.JudgeStopped("it died");
+  EXPECT_THROW(RequireAVerdict(set, &judge), RuntimeFailure);
 }
 
 }  // namespace

@@ -29,14 +29,13 @@ std::vector<ScoreRow> HardestRows() {
 
 // The place of the object is its second score.
 HardestObjects Hardest(std::vector<ScoreRow> rows, int count) {
-  return FindHardest(
-      std::move(rows), count,
-      [](std::int64_t place) {
-        Graspability score;
-        score.value = static_cast<double>(place);
-        return score;
-      },
-      1, nullptr);
+  return FindHardest(std::move(rows), count, [](const std::vector<std::int64_t>& places) {
+    std::vector<Graspability> scores(places.size());
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      scores[k].value = static_cast<double>(places[k]);
+    }
+    return scores;
+  });
 }
 
 TEST(FindHardest, TakesTheLowestOfThoseThatHaveAGraspAndNamesTheOthersApart) {

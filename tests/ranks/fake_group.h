@@ -65,6 +65,10 @@ class ThreadRanks {
       all_->put_.erase(name);
       return bytes;
     }
+    bool Has(const std::string& name) override {
+      const std::lock_guard<std::mutex> lock(all_->mutex_);
+      return all_->put_.count(name) > 0;
+    }
 
    private:
     ThreadRanks* all_;
