@@ -70,7 +70,8 @@ def same(folder, *arguments):
         if "built without MuJoCo" in done.stderr:
             sys.exit(77)
         assert done.returncode == 0, done.stderr
-        texts.append(re.sub(r"[0-9.]+ s of one thread", "", done.stdout.replace(str(out), "OUT")))
+        said = [done.stdout, *re.findall(r"^\d+ candidate grasps: .*", done.stderr, re.M)]
+        texts.append(re.sub(r"[0-9.]+ s of one thread", "", "\n".join(said).replace(str(out), "OUT")))
         if size > 1:
             assert "sent " in done.stderr and "(rank 1" not in done.stderr, done.stderr
             expect_equal(folder / "of1", out)
