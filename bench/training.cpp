@@ -43,8 +43,8 @@ torch::Tensor RandomGrids(std::int64_t count) {
 }
 
 std::unique_ptr<GanTrainer> MakeTrainer(const ModelOptions& model, int batch,
-                                        torch::Device device = torch::kCPU) {
-  GanOptions options;
+                                        torch::Device device = torch::kCPU,
+                                        GanOptions options = {}) {
   options.batch = batch;
   auto trainer = std::make_unique<GanTrainer>(model, options, 1, device);
   trainer->BeginEpisode(0, kIterations, false);
@@ -139,8 +139,9 @@ void CompareSteps() {
   }
 }
 
-// Tried: cuDNN's algorithms are timed once and the fastest kept, as training does. A step ends with
-// a wait for the device: it reports its losses.
+// Tried: cuDNN's algorithms are timed once and the fastest kept, as training does; graphs: and a
+// step is recorded once and replayed. A step ends with a wait for the device: it reports its
+// losses.
 void CompareDevices() {
   if (!torch::cuda::is_available()) {
     std::printf("left out: CUDA (this LibTorch or this machine has none)\n");
@@ -149,15 +150,18 @@ void CompareDevices() {
   SetTorchThreads(HardwareThreads());
   for (const int width : {8, 16, 32, 64}) {
     std::vector<Contender> contenders;
-    for (const auto& [name, device, precision, tries] :
-         {std::tuple("cpu", torch::kCPU, Precision::kFloat32, false),
-          std::tuple("cuda", torch::kCUDA, Precision::kFloat32, false),
-          std::tuple("cuda_tried", torch::kCUDA, Precision::kFloat32, true),
-          std::tuple("cuda_tried_bfloat16", torch::kCUDA, Precision::kBfloat16, true)}) {
+    for (const auto& [name, device, precision, tries, graphs] :
+         {std::tuple("cpu", torch::kCPU, Precision::kFloat32, false, false),
+          std::tuple("cuda", torch::kCUDA, Precision::kFloat32, false, false),
+          std::tuple("cuda_tried", torch::kCUDA, Precision::kFloat32, true, false),
+          std::tuple("cuda_graphs", torch::kCUDA, Precision::kFloat32, true, true),
+          std::tuple("cuda_graphs_bfloat16", torch::kCUDA, Precision::kBfloat16, true, true)}) {
       ModelOptions model = Model(width, 4);
       model.pack_at = PackAt::kFeatures;
       model.precision = precision;
-      const std::shared_ptr<GanTrainer> trainer = MakeTrainer(model, kBatch, device);
+      GanOptions gan;
+      gan.cuda_graphs = graphs;
+      const std::shared_ptr<GanTrainer> trainer = MakeTrainer(model, kBatch, device, gan);
       const torch::Tensor shapes = RandomGrids(64).to(device);
       const int steps = device == torch::kCPU ? 1 : 20;
       const auto work = [=, tries = tries] {

@@ -12,6 +12,15 @@ constexpr auto ChoicesOf(ModelKind) {
       {{ModelKind::kSngan, "sngan"}, {ModelKind::kSolids, "solids"}});
 }
 
+// What parts of a union are: kBoxes and kCylinders begin as these and may become all else that
+// solid_field.h has; kTurned are upright, round and share one axis, as what is made on a lathe.
+enum class PartForm { kBoxes, kCylinders, kTurned };
+constexpr auto ChoicesOf(PartForm) {
+  return std::to_array<Choice<PartForm>>({{PartForm::kBoxes, "boxes"},
+                                          {PartForm::kCylinders, "cylinders"},
+                                          {PartForm::kTurned, "turned"}});
+}
+
 enum class PackAt { kInput, kFeatures };
 constexpr auto ChoicesOf(PackAt) {
   return std::to_array<Choice<PackAt>>(
@@ -41,11 +50,12 @@ struct ModelOptions {
   // kSngan: the paper's transposed convolutions; kSolids: a union of prisms, cylinders and cones
   // whose measures are drawn (solid_generator.h).
   ModelKind kind = ModelKind::kSngan;
-  int parts = 6;              // of a union
-  int width = 8;              // c: channels of the generator's last hidden layer
-  int latent = 200;           // z in R^200 (paper V-A)
-  int resolution = 32;        // nodes along a side: 16, 32, 64 or 128
-  bool spectral_norm = true;  // on the discriminator; off reproduces VI-D
+  int parts = 6;                     // of a union
+  PartForm form = PartForm::kBoxes;  // of its parts
+  int width = 8;                     // c: channels of the generator's last hidden layer
+  int latent = 200;                  // z in R^200 (paper V-A)
+  int resolution = 32;               // nodes along a side: 16, 32, 64 or 128
+  bool spectral_norm = true;         // on the discriminator; off reproduces VI-D
   // Shapes that the discriminator judges together, as channels of one input (PacGAN, Lin et al.,
   // NeurIPS 2018): a generator that repeats itself is found out. 1 = the paper.
   int pack = 1;

@@ -33,6 +33,8 @@ constexpr double kSteepest = 0.9;     // of the lean that thins an end down to t
 // nearly equal are so exactly.
 constexpr double kFormGain = 0.25;  // of what the last layer begins with
 constexpr double kRoundBias = -1.2, kEndsBias = -1.4;
+constexpr double kCylinderBias = 2.2;  // where Share is 1
+constexpr double kDiscGain = 0.1;      // of the second side of a section that begins as a disc
 constexpr double kStraight = 1.0, kUpright = 0.25, kEqualSides = 0.1;
 
 torch::Tensor Unit(const torch::Tensor& x) {
@@ -55,6 +57,11 @@ torch::Tensor Axes(const torch::Tensor& turn) {
   const torch::Tensor side = rest.narrow(2, 3, 3) + cube[1];
   const torch::Tensor v = Unit(side - (u * side).sum(-1, true) * u);
   return torch::stack({u, v, torch::cross(u, v, -1)}, 2);
+}
+
+// The cube's own for every part of `turn` [N, M, 6].
+torch::Tensor UprightAxes(const torch::Tensor& turn) {
+  return torch::eye(3, turn.options()).expand({turn.size(0), turn.size(1), 3, 3});
 }
 
 // By how much half sizes along u, v and w exceed the least; about equal sides are equal.
@@ -97,16 +104,27 @@ struct Draft {
   SolidReach Reach() const { return ReachOf({axes, half, round, Slope(), Fillet()}); }
 };
 
-Draft Drawn(const torch::Tensor& x) {  // [N, M, kRaws]
+Draft Drawn(const torch::Tensor& x, PartForm form) {  // [N, M, kRaws]
+  const bool turned = form == PartForm::kTurned;
   const auto raw = [&](int first, int count) { return x.narrow(2, first, count); };
+  // Of two numbers that are one on a lathe, the first.
+  const auto both = [&](const torch::Tensor& pair) {
+    return turned ? pair.narrow(2, 0, 1).expand_as(pair) : pair;
+  };
   Draft draft;
-  draft.axes = Axes(raw(kAxis, 6));
-  draft.half = kLeastHalf + Sizes(raw(kSize, 3));
-  draft.round = Share(raw(kRound, 1) + kRoundBias);
-  draft.lean = kSteepest * torch::tanh(torch::softshrink(raw(kLean, 2), kUpright));
+  draft.axes = turned ? UprightAxes(raw(kAxis, 6)) : Axes(raw(kAxis, 6));
+  const torch::Tensor size = Sizes(raw(kSize, 3));
+  draft.half = kLeastHalf + torch::cat({both(size.narrow(2, 0, 2)), size.narrow(2, 2, 1)}, 2);
+  const torch::Tensor round = raw(kRound, 1);
+  draft.round = turned ? torch::ones_like(round)
+                       : Share(round + (form == PartForm::kCylinders ? kCylinderBias : kRoundBias));
+  draft.lean = kSteepest * torch::tanh(torch::softshrink(both(raw(kLean, 2)), kUpright));
   draft.ends = Share(raw(kEnds, 1) + kEndsBias);
   const auto inside = [&](const torch::Tensor& share) {
-    return PointInside(torch::tanh(share), draft.half, draft.Slope(), draft.axes);
+    const torch::Tensor on_axis =
+        torch::cat({torch::zeros_like(share.narrow(2, 0, 2)), share.narrow(2, 2, 1)}, 2);
+    return PointInside(torch::tanh(turned ? on_axis : share), draft.half, draft.Slope(),
+                       draft.axes);
   };
   draft.place = Chained(inside(raw(kJoint, 3).roll(-1, 1)), inside(raw(kGrip, 3)));
   return draft;
@@ -153,6 +171,9 @@ void SolidGeneratorImpl::Initialize(RngStream* rng) {
         .narrow(1, kRound, kRaws - kRound)
         .mul_(kFormGain);
     layer->bias.view({options_.parts, kRaws}).narrow(1, kRound, kRaws - kRound).zero_();
+    if (options_.form != PartForm::kCylinders) continue;
+    layer->weight.view({options_.parts, kRaws, -1}).narrow(1, kSize + 1, 1).mul_(kDiscGain);
+    layer->bias.view({options_.parts, kRaws}).narrow(1, kSize + 1, 1).zero_();
   }
 }
 
@@ -162,7 +183,7 @@ torch::Tensor SolidGeneratorImpl::Parts(const torch::Tensor& z) {
     x = layer.get() == layers_.front().get() ? layer(x) : layer(torch::relu(x));
   }
   x = x.view({z.size(0), options_.parts, kRaws});
-  Draft draft = Drawn(x);
+  Draft draft = Drawn(x, options_.form);
   PutIntoTheMiddle(0.5 - kFreeCells / options_.resolution, &draft);
   const torch::Tensor slope = draft.Slope();
   return torch::cat(

@@ -3,12 +3,19 @@
 namespace antigrasp {
 
 void Bind(OptionTable* table, GanOptions* options) {
+  table->Add("gan.loss", &options->loss,
+             "hinge, or relativistic: scores of real and generated shapes in pairs");
+  table->Add("gan.gradient_penalty", &options->gradient_penalty, 0, 1e6,
+             "weight of the discriminator's squared slope at real and generated shapes (R1, R2); "
+             "0 = none");
   table->Add("gan.batch", &options->batch, 2, 4096, "shapes in one update");
   table->Add("gan.micro_batches", &options->micro_batches, 0, 1024,
              "parts that a batch is computed in, which processes can share: the same bytes for any "
              "number of them; 0 = in one piece");
   table->Add("gan.discriminator_steps", &options->discriminator_steps, 1, 100,
              "discriminator updates for each generator update");
+  table->Add("gan.cuda_graphs", &options->cuda_graphs,
+             "steps on a GPU are recorded once and replayed; the CPU's are not concerned");
   table->Add("gan.learning_rate_g", &options->learning_rate_g, 0, 1, "Adam's rate, generator");
   table->Add("gan.learning_rate_d", &options->learning_rate_d, 0, 1, "Adam's rate, discriminator");
   table->Add("gan.rest_below", &options->rest_below, 0, 2,

@@ -23,14 +23,26 @@ constexpr auto ChoicesOf(Augmentation) {
                                               {Augmentation::kShiftsAndFlips, "shifts_and_flips"}});
 }
 
+// What the networks are told of a batch (gan_losses.h).
+enum class GanLoss { kHinge, kRelativistic };
+constexpr auto ChoicesOf(GanLoss) {
+  return std::to_array<Choice<GanLoss>>(
+      {{GanLoss::kHinge, "hinge"}, {GanLoss::kRelativistic, "relativistic"}});
+}
+
 // How one GAN is trained.
 struct GanOptions {
+  GanLoss loss = GanLoss::kHinge;
+  // Weight of the discriminator's squared slope at real and generated shapes (R1 and R2); an update
+  // of it takes 2.3 times as long. 0 = none.
+  double gradient_penalty = 0.0;
   int batch = 32;
   // A batch is computed in this many parts, each with its own batch statistics and random numbers,
   // whose gradients are added in one order: the same bytes for any number of processes that share
   // them. 0 = in one piece, by one process.
   int micro_batches = 0;
   int discriminator_steps = 1;
+  bool cuda_graphs = true;  // steps on a GPU are recorded and replayed (captured_gradients.h)
   double learning_rate_g = 4e-4;
   double learning_rate_d = 4e-4;
   // The discriminator is not updated where its loss is below this: one that is sure of everything

@@ -1,6 +1,5 @@
 #include "antigrasp/train/gan_trainer.h"
 
-#include <torch/autograd.h>
 #include <torch/utils.h>
 
 #include <algorithm>
@@ -14,25 +13,16 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/rng.h"
 #include "antigrasp/models/few_bends.h"
-#include "antigrasp/models/folding.h"
-#include "antigrasp/models/random_tensor.h"
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/train/adam.h"
-#include "antigrasp/train/augment.h"
 #include "antigrasp/train/averaged_generator.h"
+#include "antigrasp/train/captured_gradients.h"
 #include "antigrasp/train/flat_gradients.h"
 #include "antigrasp/train/network_tensors.h"
 #include "antigrasp/train/shape_model.h"
-#include "antigrasp/train/symmetries.h"
 
 namespace antigrasp {
 namespace {
-
-// Hinge losses, section V-A: -E[min(0, -1 + D(x))] - E[min(0, -1 - D(G(z)))] and -E[D(G(z))].
-torch::Tensor DiscriminatorLoss(const torch::Tensor& real_score, const torch::Tensor& fake_score) {
-  return torch::relu(1.0 - real_score).mean() + torch::relu(1.0 + fake_score).mean();
-}
-torch::Tensor GeneratorLoss(const torch::Tensor& fake_score) { return -fake_score.mean(); }
 
 // Said plainly, before the first tensor that another model has not.
 void RequireGan(const NamedTensors& state, const std::string& origin) {
@@ -50,21 +40,11 @@ struct GanTrainer::Impl {
        torch::Device torch_device);
 
   void RestartNetworks(int episode_index);
-  // Parts of a batch: which random numbers, and what was generated from them.
-  struct Part {
-    RngStream rng;
-    torch::Tensor fake;
-  };
-  std::vector<Part> OwnParts(int update) const;
-  torch::Tensor RealBatch(const torch::Tensor& shapes, RngStream* rng) const;
-  torch::Tensor FakeBatch(RngStream* rng);
-  LossAndGradients DiscriminatorGradients(const torch::Tensor& shapes, Part* part);
-  LossAndGradients GeneratorGradients(Part* part);
-  LossAndGradients OverParts(std::vector<Part>* parts, const std::vector<torch::Tensor>& like,
-                             const std::function<LossAndGradients(Part*)>& of_part);
+  std::vector<GanPart> OwnParts(int update) const;
+  LossAndGradients OverParts(std::vector<GanPart>* parts, const std::vector<torch::Tensor>& like,
+                             const std::function<LossAndGradients(GanPart*)>& of_part);
   void UpdateDiscriminator(const LossAndGradients& found, StepReport* report);
   void UpdateGenerator(const LossAndGradients& found, StepReport* report);
-  std::int64_t PartSize() const { return options.batch / std::max(1, options.micro_batches); }
   std::pair<double, double> FiniteLossAndNorm(const torch::Tensor& loss,
                                               const std::vector<torch::Tensor>& gradients) const;
   double LearningRateFactor() const;
@@ -84,6 +64,7 @@ struct GanTrainer::Impl {
   AveragedGenerator average;
   Discriminator discriminator;
   Adam adam_generator, adam_discriminator;
+  CapturedGradients gradients;
   LatentMixture latent;
   int episode = 0;
   std::int64_t iterations = 0, step = 0;
@@ -104,6 +85,8 @@ GanTrainer::Impl::Impl(const ModelOptions& model_options, const GanOptions& gan_
                      options.beta2),
       adam_discriminator((discriminator->to(device), discriminator->parameters()), options.beta1,
                          options.beta2),
+      gradients(GanGradients(model, options, generator.get(), discriminator, device), options,
+                device),
       latent(StandardNormal(model.latent)) {
   RestartNetworks(0);
 }
@@ -115,63 +98,29 @@ void GanTrainer::Impl::RestartNetworks(int episode_index) {
 }
 
 // In one piece the random numbers are those of the step; parts have some each.
-std::vector<GanTrainer::Impl::Part> GanTrainer::Impl::OwnParts(int update) const {
+std::vector<GanPart> GanTrainer::Impl::OwnParts(int update) const {
   const auto stage = static_cast<std::uint64_t>(episode);
-  std::vector<Part> parts;
+  std::vector<GanPart> parts;
   for (int part = share->rank(); part < options.micro_batches; part += share->size()) {
     const std::int64_t number =
         (step * options.discriminator_steps + update) * options.micro_batches + part;
-    parts.push_back({RngStream(seed, "gan part", stage, static_cast<std::uint64_t>(number)), {}});
+    parts.push_back(
+        {RngStream(seed, "gan part", stage, static_cast<std::uint64_t>(number)), {}, {}});
   }
   return parts;
-}
-
-torch::Tensor GanTrainer::Impl::RealBatch(const torch::Tensor& shapes, RngStream* rng) const {
-  torch::Tensor indices = torch::empty({PartSize()}, torch::kLong);
-  for (std::int64_t i = 0; i < PartSize(); ++i) {
-    indices[i] = static_cast<std::int64_t>(rng->Below(static_cast<std::uint64_t>(shapes.size(0))));
-  }
-  const torch::Tensor batch =
-      shapes.index_select(0, indices.to(shapes.device())).to(device, torch::kFloat);
-  return Fold(RandomSymmetries(batch, options.symmetries, rng));
-}
-
-torch::Tensor GanTrainer::Impl::FakeBatch(RngStream* rng) {
-  return generator->ForwardFolded(NormalTensor({PartSize(), model.latent}, 1.0, rng).to(device));
-}
-
-// Leaves in the part what was generated; with a graph where gradients are on.
-LossAndGradients GanTrainer::Impl::DiscriminatorGradients(const torch::Tensor& shapes, Part* part) {
-  const torch::Tensor real = RealBatch(shapes, &part->rng);
-  part->fake = FakeBatch(&part->rng);
-  const torch::AutoGradMode gradients(true);
-  const torch::Tensor score = discriminator->ForwardFolded(  // [2 batch / pack]
-      Augment(torch::cat({real, part->fake.detach()}), options.augment, &part->rng));
-  const auto halves = score.chunk(2);
-  const torch::Tensor loss = DiscriminatorLoss(halves[0], halves[1]);
-  return {loss, torch::autograd::grad({loss}, adam_discriminator.parameters())};
-}
-
-// In two legs, so that the discriminator's own gradients are not computed.
-LossAndGradients GanTrainer::Impl::GeneratorGradients(Part* part) {
-  const torch::Tensor input = part->fake.detach().requires_grad_();
-  const torch::Tensor loss =
-      GeneratorLoss(discriminator->ForwardFolded(Augment(input, options.augment, &part->rng)));
-  const auto grad_input = torch::autograd::grad({loss}, {input});
-  return {loss, torch::autograd::grad({part->fake}, adam_generator.parameters(), grad_input)};
 }
 
 // The mean over all parts of a batch, of which this process computes some. The discriminator makes
 // its power iteration once, as for a batch in one piece.
 LossAndGradients GanTrainer::Impl::OverParts(
-    std::vector<Part>* parts, const std::vector<torch::Tensor>& like,
-    const std::function<LossAndGradients(Part*)>& of_part) {
+    std::vector<GanPart>* parts, const std::vector<torch::Tensor>& like,
+    const std::function<LossAndGradients(GanPart*)>& of_part) {
   discriminator->IterateSigma();
   discriminator->eval();
   std::vector<torch::Tensor> rows;
   std::int64_t numbers = 1;
   for (const torch::Tensor& parameter : like) numbers += parameter.numel();
-  for (Part& part : *parts) {
+  for (GanPart& part : *parts) {
     const LossAndGradients found = of_part(&part);
     rows.push_back(FlatRow(found.loss, found.gradients));
   }
@@ -307,10 +256,11 @@ StepReport GanTrainer::Step(const torch::Tensor& shapes) {
   t.generator->train();
   t.discriminator->train();
   StepReport report;
-  std::vector<Impl::Part> parts;
+  std::vector<GanPart> parts;
   if (!in_parts) {
     parts.push_back({RngStream(t.seed, "gan", static_cast<std::uint64_t>(t.episode),
                                static_cast<std::uint64_t>(t.step)),
+                     {},
                      {}});
   }
   // The last discriminator update and the generator's share one forward of G: the discriminator
@@ -318,12 +268,15 @@ StepReport GanTrainer::Step(const torch::Tensor& shapes) {
   for (int k = 0; k < t.options.discriminator_steps; ++k) {
     const torch::AutoGradMode gradients(k + 1 == t.options.discriminator_steps);
     if (in_parts) parts = t.OwnParts(k);
-    const auto of_part = [&](Impl::Part* part) { return t.DiscriminatorGradients(shapes, part); };
+    const auto of_part = [&](GanPart* part) {
+      t.gradients.Draw(shapes, part);
+      return t.gradients.OfDiscriminator(part);
+    };
     t.UpdateDiscriminator(in_parts ? t.OverParts(&parts, t.adam_discriminator.parameters(), of_part)
                                    : of_part(&parts.front()),
                           &report);
   }
-  const auto of_part = [&](Impl::Part* part) { return t.GeneratorGradients(part); };
+  const auto of_part = [&](GanPart* part) { return t.gradients.OfGenerator(part); };
   t.UpdateGenerator(in_parts ? t.OverParts(&parts, t.adam_generator.parameters(), of_part)
                              : of_part(&parts.front()),
                     &report);

@@ -118,7 +118,7 @@ TEST(ModelOptions, EachNameSetsItsOwnField) {
         "model.pack=5", "model.pack_at=\"features\"", "model.width_d=6",
         "model.block=\"residual_generator\"", "model.edge_gain=0.7", "model.squash=\"tanh\"",
         "model.truncation=0.8", "model.raw_scale=0.9", "model.precision=\"bfloat16\"",
-        "model.kind=\"solids\"", "model.parts=7", "model.depth=0.03"}) {
+        "model.kind=\"solids\"", "model.parts=7", "model.depth=0.03", "model.form=\"turned\""}) {
     table.ApplyOverride(setting);
   }
   EXPECT_EQ(options.width, 3);
@@ -136,12 +136,13 @@ TEST(ModelOptions, EachNameSetsItsOwnField) {
   EXPECT_EQ(options.precision, Precision::kBfloat16);
   EXPECT_EQ(options.kind, ModelKind::kSolids);
   EXPECT_EQ(options.parts, 7);
+  EXPECT_EQ(options.form, PartForm::kTurned);
   EXPECT_EQ(options.depth, 0.03);
   table.ApplyOverride("model.batch_norm=false");
   EXPECT_TRUE(!options.batch_norm && options.output_blur);
   table.ApplyOverride("model.output_blur=false");
   EXPECT_FALSE(options.output_blur);
-  EXPECT_EQ(table.options().size(), 18U);
+  EXPECT_EQ(table.options().size(), 19U);
 }
 
 }  // namespace

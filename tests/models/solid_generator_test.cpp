@@ -182,6 +182,37 @@ TEST(SolidGenerator, SlightLeansAreUprightAndSlightlyUnequalSidesEqual) {
   EXPECT_LT(parts.select(1, kPartLean + 1).max().item<double>(), -0.01);
 }
 
+TEST(SolidGenerator, CylindersBeginRoundAndMostlyOfEqualSides) {
+  ModelOptions options = Solids();
+  options.width = 8;
+  options.form = PartForm::kCylinders;
+  SolidGenerator generator(options);
+  const torch::Tensor parts = generator->Parts(Noise(64, 1.0)).flatten(0, 1);
+  EXPECT_GT((parts.select(1, kPartRound) == 1.0).to(torch::kFloat).mean().item<double>(), 0.9);
+  const torch::Tensor u = parts.select(1, kPartHalf), v = parts.select(1, kPartHalf + 1);
+  EXPECT_GT((u == v).to(torch::kFloat).mean().item<double>(), 0.6);
+  torch::NoGradGuard no_grad;
+  Biases(&generator).select(1, 15).fill_(-9.0);  // they may become boxes
+  EXPECT_EQ(generator->Parts(Noise(8, 0.0)).select(2, kPartRound).max().item<double>(), 0.0);
+}
+
+TEST(SolidGenerator, TurnedPartsAreUprightRoundAndShareOneAxisWhateverIsDrawn) {
+  ModelOptions options = Solids();
+  options.form = PartForm::kTurned;
+  SolidGenerator generator(options);
+  for (const double sd : {1.0, 1e4}) {
+    const torch::Tensor parts = generator->Parts(Noise(64, sd)).flatten(0, 1);
+    EXPECT_TRUE(torch::equal(parts.narrow(1, kPartAxes, 9).view({-1, 3, 3}),
+                             torch::eye(3).expand({parts.size(0), 3, 3})));
+    EXPECT_LT(parts.narrow(1, kPartCentre, 2).abs().max().item<double>(), 1e-6);
+    EXPECT_TRUE((parts.select(1, kPartRound) == 1.0).all().item<bool>());
+    EXPECT_TRUE(torch::equal(parts.select(1, kPartHalf), parts.select(1, kPartHalf + 1)));
+    EXPECT_TRUE(torch::equal(parts.select(1, kPartLean), parts.select(1, kPartLean + 1)));
+  }
+  const torch::Tensor grids = generator(Noise(4, 1.0));  // as seen from any of four sides
+  EXPECT_LT((grids - grids.transpose(3, 4)).abs().max().item<double>(), 1e-4);
+}
+
 TEST(SolidGenerator, WeightsDependOnTheStreamOnly) {
   SolidGenerator a(Solids()), b(Solids());
   RngStream one(1, "a"), same(1, "a"), other(2, "a");

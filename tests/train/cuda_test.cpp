@@ -3,8 +3,10 @@
 #include <torch/types.h>
 
 #include <memory>
+#include <utility>
 
 #include "antigrasp/models/random_tensor.h"
+#include "antigrasp/train/captured_gradients.h"
 #include "antigrasp/train/gan_trainer.h"
 
 namespace antigrasp {
@@ -34,8 +36,9 @@ class Cuda : public testing::Test {
   }
   void TearDown() override { at::globalContext().setAllowTF32CuDNN(true); }
 
-  static std::unique_ptr<GanTrainer> Trainer(torch::Device device) {
-    auto trainer = std::make_unique<GanTrainer>(SmallModel(), GanOptions(), 3, device);
+  static std::unique_ptr<GanTrainer> Trainer(torch::Device device, const GanOptions& options = {},
+                                             const ModelOptions& model = SmallModel()) {
+    auto trainer = std::make_unique<GanTrainer>(model, options, 3, device);
     trainer->BeginEpisode(0, 20, true);
     return trainer;
   }
@@ -52,6 +55,29 @@ TEST_F(Cuda, StepsLoseAsMuchAsOnTheCpu) {
                 2e-2 * expected.gradient_generator);
   }
   EXPECT_NEAR(gpu->LargestSigma(), cpu->LargestSigma(), 1e-3);
+}
+
+TEST_F(Cuda, RecordedStepsAreThoseThatAreLaunchedOneByOne) {
+  if (!HasCapture()) GTEST_SKIP() << "built without CUDA graphs";
+  ModelOptions solids = SmallModel();
+  solids.kind = ModelKind::kSolids;
+  GanOptions penalised;
+  penalised.loss = GanLoss::kRelativistic;
+  penalised.gradient_penalty = 1.0;
+  for (const auto& [model, options] :
+       {std::pair(SmallModel(), GanOptions()), {SmallModel(), penalised}, {solids, penalised}}) {
+    GanOptions launched = options;
+    launched.cuda_graphs = false;
+    const auto recorded = Trainer(torch::kCUDA, options, model);
+    const auto plain = Trainer(torch::kCUDA, launched, model);
+    const torch::Tensor shapes = Grids().to(torch::kCUDA);
+    for (int step = 0; step < 10; ++step) {
+      if (step == 7) recorded->Load(plain->State(), "state");  // weights change in place
+      const StepReport expected = plain->Step(shapes), found = recorded->Step(shapes);
+      EXPECT_NEAR(found.loss_discriminator, expected.loss_discriminator, 5e-3) << step;
+      EXPECT_NEAR(found.loss_generator, expected.loss_generator, 5e-3) << step;
+    }
+  }
 }
 
 TEST_F(Cuda, WhatAGpuSavedIsTheSameOnTheCpu) {

@@ -16,7 +16,8 @@ TEST(GanOptions, EachNameSetsItsOwnField) {
         "gan.learning_rate_d=0.02", "gan.later_rate=0.03", "gan.beta1=0.04", "gan.beta2=0.05",
         "gan.lr_decay_fraction=0.06", "gan.symmetries=\"around_z\"", "gan.augment=\"flips\"",
         "gan.ema=0.07", "gan.rest_below=0.08", "gan.fairing=0.09", "gan.fairing_power=0.1",
-        "gan.micro_batches=3"}) {
+        "gan.micro_batches=3", "gan.loss=\"relativistic\"", "gan.gradient_penalty=0.11",
+        "gan.cuda_graphs=false"}) {
     table.ApplyOverride(setting);
   }
   EXPECT_EQ(options.batch, 16);
@@ -34,7 +35,10 @@ TEST(GanOptions, EachNameSetsItsOwnField) {
   EXPECT_EQ(options.fairing, 0.09);
   EXPECT_EQ(options.fairing_power, 0.1);
   EXPECT_EQ(options.micro_batches, 3);
-  EXPECT_EQ(table.options().size(), 15U);
+  EXPECT_EQ(options.loss, GanLoss::kRelativistic);
+  EXPECT_EQ(options.gradient_penalty, 0.11);
+  EXPECT_FALSE(options.cuda_graphs);
+  EXPECT_EQ(table.options().size(), 18U);
 }
 
 TEST(GanOptions, RefuseValuesOutOfRange) {
@@ -46,7 +50,7 @@ TEST(GanOptions, RefuseValuesOutOfRange) {
         "gan.learning_rate_d=-0.01", "gan.later_rate=1.01", "gan.beta1=1", "gan.beta2=1",
         "gan.lr_decay_fraction=1.01", "gan.symmetries=\"around_x\"", "gan.augment=\"all\"",
         "gan.ema=1", "gan.rest_below=2.01", "gan.fairing=-1", "gan.fairing_power=0",
-        "gan.micro_batches=-1"}) {
+        "gan.micro_batches=-1", "gan.loss=\"wasserstein\"", "gan.gradient_penalty=-1"}) {
     EXPECT_THROW(table.ApplyOverride(setting), InputError) << setting;
   }
 }

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <torch/types.h>
+
+#include <cstdint>
+
+#include "antigrasp/core/rng.h"
+#include "antigrasp/models/discriminator.h"
+#include "antigrasp/models/shape_generator.h"
+#include "antigrasp/train/flat_gradients.h"
+#include "antigrasp/train/gan_options.h"
+
+namespace antigrasp {
+
+// A batch, or a part of one: which random numbers, what was drawn with them, what was generated.
+struct GanPart {
+  RngStream rng;         // of the augmentation once real and z are drawn
+  torch::Tensor real;    // shapes of the set, folded (folding.h)
+  torch::Tensor z;       // [n, latent]
+  torch::Tensor fake{};  // n shapes, folded; with a graph where gradients are on
+};
+
+// The two losses of a part of a batch and their gradients. Keeps the networks, which its owner
+// changes.
+class GanGradients {
+ public:
+  GanGradients(const ModelOptions& model, const GanOptions& options, ShapeGenerator* generator,
+               const Discriminator& discriminator, torch::Device device);
+
+  // Real shapes and z of a part: `shapes` [N, 1, r, r, r] network values.
+  void Draw(const torch::Tensor& shapes, GanPart* part) const;
+
+  // By the discriminator's parameters. Leaves in the part what was generated.
+  LossAndGradients OfDiscriminator(GanPart* part);
+
+  // By the generator's, on what is in the part.
+  LossAndGradients OfGenerator(GanPart* part);
+
+ private:
+  torch::Tensor Seen(const torch::Tensor& shapes, GanPart* part) const;
+
+  GanOptions options_;
+  std::int64_t latent_, size_;  // of a part
+  torch::Device device_;
+  ShapeGenerator* generator_;
+  Discriminator discriminator_;
+  std::vector<torch::Tensor> generator_parameters_, discriminator_parameters_;
+};
+
+}  // namespace antigrasp
