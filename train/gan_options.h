@@ -42,7 +42,7 @@ struct GanOptions {
   // them. 0 = in one piece, by one process.
   int micro_batches = 0;
   int discriminator_steps = 1;
-  bool cuda_graphs = true;  // steps on a GPU are recorded and replayed (captured_gradients.h)
+  bool cuda_graphs = false;  // steps on a GPU are recorded and replayed (captured_gradients.h)
   double learning_rate_g = 4e-4;
   double learning_rate_d = 4e-4;
   // The discriminator is not updated where its loss is below this: one that is sure of everything

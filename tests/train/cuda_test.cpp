@@ -66,10 +66,10 @@ TEST_F(Cuda, RecordedStepsAreThoseThatAreLaunchedOneByOne) {
   penalised.gradient_penalty = 1.0;
   for (const auto& [model, options] :
        {std::pair(SmallModel(), GanOptions()), {SmallModel(), penalised}, {solids, penalised}}) {
-    GanOptions launched = options;
-    launched.cuda_graphs = false;
-    const auto recorded = Trainer(torch::kCUDA, options, model);
-    const auto plain = Trainer(torch::kCUDA, launched, model);
+    GanOptions graphs = options;
+    graphs.cuda_graphs = true;
+    const auto recorded = Trainer(torch::kCUDA, graphs, model);
+    const auto plain = Trainer(torch::kCUDA, options, model);
     const torch::Tensor shapes = Grids().to(torch::kCUDA);
     for (int step = 0; step < 10; ++step) {
       if (step == 7) recorded->Load(plain->State(), "state");  // weights change in place

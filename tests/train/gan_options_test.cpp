@@ -17,7 +17,7 @@ TEST(GanOptions, EachNameSetsItsOwnField) {
         "gan.lr_decay_fraction=0.06", "gan.symmetries=\"around_z\"", "gan.augment=\"flips\"",
         "gan.ema=0.07", "gan.rest_below=0.08", "gan.fairing=0.09", "gan.fairing_power=0.1",
         "gan.micro_batches=3", "gan.loss=\"relativistic\"", "gan.gradient_penalty=0.11",
-        "gan.cuda_graphs=false"}) {
+        "gan.cuda_graphs=true"}) {
     table.ApplyOverride(setting);
   }
   EXPECT_EQ(options.batch, 16);
@@ -37,7 +37,7 @@ TEST(GanOptions, EachNameSetsItsOwnField) {
   EXPECT_EQ(options.micro_batches, 3);
   EXPECT_EQ(options.loss, GanLoss::kRelativistic);
   EXPECT_EQ(options.gradient_penalty, 0.11);
-  EXPECT_FALSE(options.cuda_graphs);
+  EXPECT_TRUE(options.cuda_graphs);
   EXPECT_EQ(table.options().size(), 18U);
 }
 
