@@ -17,7 +17,7 @@ namespace {
 struct CompareFlags {
   std::string samples, reference, training, out;
   LengthUnit units = LengthUnit::kM;
-  int count = 500;
+  int count = 500, processes = 1;
   SurfaceComparisonOptions options;
 };
 
@@ -26,13 +26,16 @@ ComparedSet Read(const std::string& input, const std::string& what, std::size_t 
   ConsoleObserver console;
   ComparedSet set = ReadComparedSet(input, flags.units, flags.options.threads,
                                     console.Phase("reading the " + what));
-  std::fprintf(stderr, "%s: %s\n", what.c_str(), set.counts.c_str());
+  if (!Helps(flags.options.share)) {
+    std::fprintf(stderr, "%s: %s\n", what.c_str(), set.counts.c_str());
+  }
   RequireShapes(set, least);
   return set;
 }
 
 void Compare(const CompareFlags& flags) {
-  if (!flags.out.empty()) const AtomicFile probe(flags.out);  // refuses an unwritable target first
+  const bool helps = Helps(flags.options.share);
+  if (!flags.out.empty() && !helps) const AtomicFile probe(flags.out);  // refused before the work
   for (const std::string& read : {flags.samples, flags.reference, flags.training}) {
     if (!read.empty()) ObjectSource({read}).RequireNotRead({flags.out});
   }
@@ -46,6 +49,7 @@ void Compare(const CompareFlags& flags) {
       CompareSurfaces(samples.meshes, reference.meshes, training.meshes, flags.options,
                       [&console](const std::string& phase) { return console.Phase(phase); },
                       {samples.streams, reference.streams, training.streams});
+  if (helps) return;
   const ComparisonTable table(found, count, samples.left_out, reference.left_out);
   if (!flags.out.empty()) WriteFileAtomic(flags.out, table.Csv());
   std::fputs(table.Text().c_str(), stdout);
@@ -54,7 +58,7 @@ void Compare(const CompareFlags& flags) {
 
 }  // namespace
 
-void AddCompareCommand(CLI::App* app) {
+void AddCompareCommand(CLI::App* app, const JobRunner& job) {
   const auto flags = std::make_shared<CompareFlags>();
   CLI::App* command = app->add_subcommand(
       "compare", "Compare a set of objects with a reference set, on their surfaces");
@@ -76,10 +80,16 @@ void AddCompareCommand(CLI::App* app) {
       ->capture_default_str();
   command->add_option("--seed", flags->options.seed, "random seed")->capture_default_str();
   AddThreads(command, &flags->options.threads, "; the numbers do not depend on it");
+  AddProcesses(command, &flags->processes);
   command->footer(
       "Distances are Chamfer distances in metres, the objects' unit being --units; they are "
       "compared as they lie.\ndocs/similarity.md defines every number.");
-  command->callback([flags] { Compare(*flags); });
+  command->callback([flags, job] {
+    job(flags->processes, [&](WorkShare* share) {
+      flags->options.share = share;
+      Compare(*flags);
+    });
+  });
 }
 
 }  // namespace antigrasp

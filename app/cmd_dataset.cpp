@@ -123,9 +123,14 @@ void AddDatasetCommand(CLI::App* app, const JobRunner& job) {
                    "of their nodes, in the unit of their values; default: the file's, else 1/n")
       ->check(NumberIn(1e-12, 1e12));
   AddThreads(imported, &request->options.threads);
-  imported->callback([request] {
-    ConsoleObserver console;
-    std::fputs(RunImport(*request, console.Phase("importing")).c_str(), stdout);
+  const auto processes = std::make_shared<int>(1);
+  AddProcesses(imported, processes.get());
+  imported->callback([request, processes, job] {
+    job(*processes, [&](WorkShare* share) {
+      request->options.share = share;
+      ConsoleObserver console;
+      std::fputs(RunImport(*request, console.Phase("importing")).c_str(), stdout);
+    });
   });
   AddPairCommand(dataset);
 }

@@ -92,9 +92,8 @@ void Train(const TrainFlags& flags) {
     if (!flags.resume.empty()) return {"--resume " + flags.resume};
     return SameForAll(ConfigOf(flags.run));
   };
-  RunAsJob(flags.processes, same, &ThrowIfInterrupted, &JudgeOf, [&](auto& make, auto& score) {
-    Run(flags, {&JudgeOf, &Refined, score}, make);
-  });
+  RunAsJob(flags.processes, same, &ThrowIfInterrupted, &JudgeOf, &Refined,
+           [&](auto& make, auto& parts) { Run(flags, parts, make); });
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ void AddTrainCommand(CLI::App* app);
 void AddSampleCommand(CLI::App* app);
 void AddRemeshCommand(CLI::App* app);
 void AddEvaluateCommand(CLI::App* app, const JobRunner& job);
-void AddCompareCommand(CLI::App* app);
+void AddCompareCommand(CLI::App* app, const JobRunner& job);
 void AddQualityCommand(CLI::App* app);
 void AddPerturbCommand(CLI::App* app, const JobRunner& job);
 void AddShapeCommand(CLI::App* app);

@@ -18,7 +18,7 @@ void AddCommands(CLI::App* app) {
   Name(kSample, app);
   AddRemeshCommand(app);
   AddEvaluateCommand(app, alone);
-  AddCompareCommand(app);
+  AddCompareCommand(app, alone);
   AddQualityCommand(app);
   AddPerturbCommand(app, alone);
   AddShapeCommand(app);

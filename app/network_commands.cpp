@@ -3,10 +3,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "antigrasp/core/error.h"
@@ -18,13 +20,12 @@ namespace {
 
 char** g_arguments = nullptr;
 constexpr int kKeepTheUsersOwn = 0;
+constexpr std::array kShared = {"compare", "dataset", "evaluate", "perturb", "trial"};
 
 // Several processes speak to each other by LibTorch.
 bool SharesWork(int argc, char** argv) {
-  const std::string_view command = argc > 1 ? argv[1] : "";
-  if (command != "dataset" && command != "evaluate" && command != "perturb" && command != "trial") {
-    return false;
-  }
+  const std::string command = argc > 1 ? argv[1] : "";
+  if (std::count(kShared.begin(), kShared.end(), command) == 0) return false;
   const bool asked = std::any_of(argv, argv + argc, [](const char* word) {
     return std::string_view(word).starts_with("--processes");
   });

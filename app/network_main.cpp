@@ -14,6 +14,7 @@ void AddCommands(CLI::App* app) {
   const JobRunner job = [](int processes, const SharedRun& run) {
     RunShared(processes, &ThrowIfInterrupted, run);
   };
+  AddCompareCommand(app, job);
   AddDatasetCommand(app, job);
   AddEvaluateCommand(app, job);
   AddPerturbCommand(app, job);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "antigrasp/core/parallel.h"
+#include "antigrasp/core/work_share.h"
 #include "antigrasp/datasets/point_set.h"
 
 namespace antigrasp {
@@ -23,13 +24,15 @@ template <int D>
 double Chamfer(const PointBlocks<D>& a, const PointBlocks<D>& b);
 
 // All pairs of the shapes: symmetric, zeros on the diagonal, the same bytes at any thread count.
+// The ranks of `share` fill it together; on one that helps it stays zero.
 template <int D>
 DistanceMatrix ChamferMatrix(const std::vector<PointBlocks<D>>& shapes, int threads,
-                             const ProgressFn& progress = nullptr);
+                             const ProgressFn& progress = nullptr, WorkShare* share = nullptr);
 
-// For each shape the distance to the nearest one of `others` (at least one).
+// For each shape the distance to the nearest one of `others` (at least one); shared as the matrix.
 std::vector<double> NearestChamfer(const std::vector<PointSet>& shapes,
                                    const std::vector<PointSet>& others, int threads,
-                                   const ProgressFn& progress = nullptr);
+                                   const ProgressFn& progress = nullptr,
+                                   WorkShare* share = nullptr);
 
 }  // namespace antigrasp

@@ -8,13 +8,14 @@
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/format.h"
-#include "antigrasp/core/ordered_stream.h"
+#include "antigrasp/core/shared_stream.h"
 #include "antigrasp/core/spool.h"
 #include "antigrasp/core/statistics.h"
 #include "antigrasp/datasets/import_sources.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/mesh/mesh_file.h"
 #include "antigrasp/mesh/mesh_format.h"
+#include "antigrasp/mesh/pass_mesh.h"
 #include "antigrasp/mesh/repair.h"
 #include "antigrasp/sdf/mesh_to_sdf.h"
 #include "antigrasp/sdf/sdf_grid.h"
@@ -43,8 +44,18 @@ void Refuse(const std::string& why, Item* item) {
   item->report.detail = why;
 }
 
-// The mesh is empty unless it is usable.
-std::pair<Item, TriangleMesh> ReadItem(const FoundMesh& source, LengthUnit units) {
+void PassFields(Passer& pass, Item& item) {
+  pass(item.report.path, item.report.status, item.report.detail, item.report.nodes, item.usable,
+       item.extent);
+}
+
+struct ReadMesh {
+  Item item;
+  TriangleMesh mesh;  // empty unless it is usable
+};
+void PassFields(Passer& pass, ReadMesh& read) { pass(read.item, read.mesh); }
+
+ReadMesh ReadItem(const FoundMesh& source, LengthUnit units) {
   Item item;
   item.report.path = source.path;
   try {
@@ -130,8 +141,8 @@ SdfGrid ToGrid(const TriangleMesh& mesh, double scale, int resolution) {
   return grid;
 }
 
-bool HasInside(const SdfGrid& grid) {
-  return *std::max_element(grid.values.begin(), grid.values.end()) > 0.0f;
+bool HasInside(const std::vector<float>& values) {
+  return *std::max_element(values.begin(), values.end()) > 0.0f;
 }
 
 std::string TooThin(const ImportOptions& options) {
@@ -155,40 +166,42 @@ std::string Joined(const std::vector<fs::path>& inputs) {
   return Sentence(names);
 }
 
-// Every file read and repaired; usable meshes wait in the spool.
+// Every file read and repaired; usable meshes wait in the spool (of a rank that helps: nullptr).
 std::vector<Item> ReadAll(const std::vector<FoundMesh>& sources, const ImportOptions& options,
                           MeshSpool* spool, const ProgressFn& progress) {
   std::vector<Item> items(sources.size());
-  StreamInOrder(
-      std::ssize(sources), options.threads,
+  StreamShared(
+      options.share, std::ssize(sources), options.threads,
       [&](std::int64_t i) { return ReadItem(sources[static_cast<std::size_t>(i)], options.units); },
-      [&](std::int64_t i, std::pair<Item, TriangleMesh> read) {
+      [&](std::int64_t i, ReadMesh read) {
         const auto slot = static_cast<std::size_t>(i);
-        items[slot] = std::move(read.first);
-        if (items[slot].usable) spool->Put(slot, read.second);
+        items[slot] = std::move(read.item);
+        if (items[slot].usable) spool->Put(slot, read.mesh);
       },
       progress);
   return items;
 }
 
 // The grids of the usable meshes, in the order of the items, wait in the spool; what has nothing
-// inside is refused. `scale_of` an item.
-template <typename Scale>
-void GridAll(const MeshSpool& meshes, const Scale& scale_of, const ImportOptions& options,
+// inside is refused. `mesh_of` an item by number, `scale_of` an item.
+template <typename MeshOf, typename Scale>
+void GridAll(const MeshOf& mesh_of, const Scale& scale_of, const ImportOptions& options,
              std::vector<Item>* items, Spool* grids, const ProgressFn& progress) {
-  StreamInOrder(
-      std::ssize(*items), options.threads,
-      [&](std::int64_t i) -> std::optional<SdfGrid> {
+  const double spacing = UnitCubeGrid(options.resolution).spacing;
+  StreamShared(
+      options.share, std::ssize(*items), options.threads,
+      [&](std::int64_t i) -> std::vector<float> {
         const Item& item = (*items)[static_cast<std::size_t>(i)];
-        if (!item.usable) return std::nullopt;
-        return ToGrid(meshes.Get(static_cast<std::size_t>(i)), scale_of(item), options.resolution);
+        if (!item.usable) return {};
+        return ToGrid(mesh_of(static_cast<std::size_t>(i)), scale_of(item), options.resolution)
+            .values;
       },
-      [&](std::int64_t i, const std::optional<SdfGrid>& grid) {
-        if (!grid) return;
+      [&](std::int64_t i, const std::vector<float>& values) {
+        if (values.empty()) return;
         Item& item = (*items)[static_cast<std::size_t>(i)];
-        item.report.nodes = scale_of(item) * item.extent / grid->spacing;
-        if (!HasInside(*grid)) return Refuse(TooThin(options), &item);
-        grids->Append(grid->values.data(), grid->values.size() * sizeof(float));
+        item.report.nodes = scale_of(item) * item.extent / spacing;
+        if (!HasInside(values)) return Refuse(TooThin(options), &item);
+        grids->Append(values.data(), values.size() * sizeof(float));
       },
       progress);
 }
@@ -230,25 +243,37 @@ std::vector<ImportedMesh> ImportMeshes(const std::vector<fs::path>& inputs, cons
     if (!progress) return nullptr;
     return [&, offset](std::int64_t done, std::int64_t) { progress(offset + done, 2 * count); };
   };
-  Spool grids(out.string() + ".grids");
-  MeshSpool meshes(out.string() + ".meshes", sources.size());
-  std::vector<Item> items = ReadAll(sources, options, &meshes, report_from(0));
-  CountUsable(items, where);
-  sources.clear();  // the reports have the paths
-  sources.shrink_to_fit();
+  const bool helps = Helps(options.share);
+  std::optional<Spool> grids;
+  std::optional<MeshSpool> meshes;
+  if (!helps) {
+    grids.emplace(out.string() + ".grids");
+    meshes.emplace(out.string() + ".meshes", sources.size());
+  }
+  std::vector<Item> items = ReadAll(sources, options, meshes ? &*meshes : nullptr, report_from(0));
+  if (!helps) {
+    CountUsable(items, where);
+    sources = {};  // the reports have the paths
+  }
+  TellAll(options.share, &items);
 
   const double room = (options.resolution - 2.0 * kFreeCells) / options.resolution;
   const bool one = options.scale == ImportScale::kSet;
   const double scale = one ? room / LongestOfTheSet(&items) : 0.0;
   const auto scale_of = [&](const Item& item) { return one ? scale : room / item.extent; };
-  GridAll(meshes, scale_of, options, &items, &grids, report_from(count));
+  // One that helps reads a mesh again: those that were read lie with rank 0.
+  const auto mesh_of = [&](std::size_t i) {
+    return helps ? ReadItem(sources[i], options.units).mesh : meshes->Get(i);
+  };
+  GridAll(mesh_of, scale_of, options, &items, grids ? &*grids : nullptr, report_from(count));
+  if (helps) return {};
 
   ShapeSet about{.kind = "import"};
   if (one) about.side = 1.0 / scale;
   about.provenance = "imported from " + where +
                      (one ? ", scaled by " + FormatDouble(scale) : ", each scaled to the cube");
   ShapeSetWriter writer(out, about, CountUsable(items, where));
-  WriteGrids(grids, items, names, options.resolution, &writer);
+  WriteGrids(*grids, items, names, options.resolution, &writer);
   std::vector<ImportedMesh> reports;
   for (Item& item : items) reports.push_back(std::move(item.report));
   for (const auto& [path, why] : found.skipped) reports.push_back({path, "skipped", why, 0.0});

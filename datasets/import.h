@@ -7,6 +7,7 @@
 
 #include "antigrasp/core/choice.h"
 #include "antigrasp/core/parallel.h"
+#include "antigrasp/core/work_share.h"
 #include "antigrasp/mesh/length_unit.h"
 
 namespace antigrasp {
@@ -24,6 +25,9 @@ struct ImportOptions {
   ImportScale scale = ImportScale::kSet;
   int threads = 0;                    // 0 = all; the set does not depend on it
   LengthUnit units = LengthUnit::kM;  // meshes whose files know theirs are turned into it
+  // Whose ranks read, repair and grid the meshes together; those that help write nothing and get no
+  // reports.
+  WorkShare* share = nullptr;
 };
 
 // With one factor for all, an object more than this many times as long as the set's median (lower)

@@ -30,9 +30,11 @@ void RequireNoScaling(const ImportRequest& request, const std::filesystem::path&
 }  // namespace
 
 std::string RunImport(const ImportRequest& request, const ProgressFn& progress) {
+  const bool helps = Helps(request.options.share);
   RequireApart({request.out, request.report});
   for (const std::string& out : {request.out, request.report}) {
-    if (!out.empty()) const AtomicFile probe(out);  // refuses an unwritable target before the work
+    if (!out.empty() && !helps)
+      const AtomicFile probe(out);  // refuses an unwritable target before the work
   }
   const std::vector<std::filesystem::path> inputs(request.inputs.begin(), request.inputs.end());
   const std::vector<std::filesystem::path> grids = GridFilesOf(inputs);
@@ -43,12 +45,13 @@ std::string RunImport(const ImportRequest& request, const ProgressFn& progress) 
     RequireNoMeaning(request);
     if (!request.report.empty()) ObjectSource(request.inputs).RequireNotRead({request.report});
     reports = ImportMeshes(inputs, request.out, request.options, progress, &layouts);
-  } else {
+  } else if (!helps) {
     RequireNoScaling(request, grids[0]);
     for (const std::filesystem::path& file : grids) RequireNotRead(file, {request.report});
     resolution = ShapeSetReader(grids[0], request.meaning).info().n;
     reports = ImportGrids(grids, request.out, request.meaning, request.options.threads, progress);
   }
+  if (helps) return "";
   if (!request.report.empty()) WriteFileAtomic(request.report, ImportCsv(reports));
   return layouts + ImportText(reports, request.out, resolution);
 }

@@ -73,6 +73,12 @@ double MeanOver(const std::vector<TriangleMesh>& meshes, int threads, const Meas
   return MeanWithInterval(values).mean;
 }
 
+// Mean diagonal.
+double SizeOf(const std::vector<TriangleMesh>& meshes, int threads) {
+  return MeanOver(meshes, threads,
+                  [](const TriangleMesh& mesh) { return Bounds(mesh).Extent().norm(); });
+}
+
 DihedralAngles AnglesOf(const std::vector<TriangleMesh>& meshes, int threads) {
   std::vector<DihedralAngles> angles(meshes.size());
   ParallelFor(static_cast<std::int64_t>(meshes.size()), threads, [&](std::int64_t i) {
@@ -86,8 +92,7 @@ DihedralAngles AnglesOf(const std::vector<TriangleMesh>& meshes, int threads) {
 // needs the distances.
 SetLook LookOf(const std::vector<TriangleMesh>& meshes, const double* floors, int threads) {
   SetLook look;
-  look.size = MeanOver(meshes, threads,
-                       [](const TriangleMesh& mesh) { return Bounds(mesh).Extent().norm(); });
+  look.size = SizeOf(meshes, threads);
   look.roughness = MeanOver(meshes, threads, MeanDihedralAngle);
   look.floor = MeanWithInterval({floors, floors + meshes.size()}).mean;
   return look;
@@ -115,15 +120,8 @@ std::vector<double> Floors(const std::vector<PointSet>& points, const std::vecto
   return floors;
 }
 
-// `points`: the samples, then as many of the reference.
-Memorisation MemorisationOf(const std::vector<PointSet>& points,
-                            const std::vector<TriangleMesh>& training,
-                            const std::vector<std::uint64_t>& streams,
-                            const SurfaceComparisonOptions& options, const Eigen::Vector3d& place,
-                            const ProgressFn& progress) {
-  std::vector<PointSet> others;
-  AddPoints(training, streams, kTraining, options, place, &others);
-  const std::vector<double> nearest = NearestChamfer(points, others, options.threads, progress);
+// `nearest` training shape: of the samples, then of as many of the reference.
+Memorisation MemorisationOf(const std::vector<double>& nearest) {
   const auto half = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
   const std::vector<double> samples(nearest.begin(), half), reference(half, nearest.end());
   const double median = DiscretePercentile(reference, 50.0);
@@ -155,7 +153,25 @@ SurfaceComparison CompareSurfaces(const std::vector<TriangleMesh>& samples,
   AddPoints(reference, streams.reference, kReference, options, place, &points);
   AddPoints(samples, streams.samples, kSamplesAgain, options, place, &again);
   AddPoints(reference, streams.reference, kReferenceAgain, options, place, &again);
-  const DistanceMatrix all = ChamferMatrix(points, options.threads, progress("distances"));
+  const DistanceMatrix all =
+      ChamferMatrix(points, options.threads, progress("distances"), options.share);
+  DistanceMatrix with_normals;
+  if (options.normals > 0.0) {
+    std::vector<OrientedPointSet> oriented;
+    const double length = NormalLength(options.normals, SizeOf(reference, options.threads));
+    AddOriented(samples, streams.samples, kSamples, options, length, place, &oriented);
+    AddOriented(reference, streams.reference, kReference, options, length, place, &oriented);
+    with_normals =
+        ChamferMatrix(oriented, options.threads, progress("distances with normals"), options.share);
+  }
+  std::vector<double> nearest;
+  if (!training.empty()) {
+    std::vector<PointSet> others;
+    AddPoints(training, streams.training, kTraining, options, place, &others);
+    nearest = NearestChamfer(points, others, options.threads,
+                             progress("distances to the training shapes"), options.share);
+  }
+  if (Helps(options.share)) return {};
   const std::vector<double> floors = Floors(points, again, options.threads);
   const DistanceMatrix clean = WithoutFloors(all, floors);
   const auto n = static_cast<Eigen::Index>(samples.size());
@@ -166,21 +182,11 @@ SurfaceComparison CompareSurfaces(const std::vector<TriangleMesh>& samples,
   result.samples = LookOf(samples, floors.data(), options.threads);
   result.reference = LookOf(reference, floors.data() + n, options.threads);
   CompareAngles(samples, reference, options.threads, &result);
-  if (options.normals > 0.0) {
-    std::vector<OrientedPointSet> oriented;
-    const double length = NormalLength(options.normals, result.reference.size);
-    AddOriented(samples, streams.samples, kSamples, options, length, place, &oriented);
-    AddOriented(reference, streams.reference, kReference, options, length, place, &oriented);
-    result.normals =
-        CompareHalves(ChamferMatrix(oriented, options.threads, progress("distances with normals")));
-  }
+  if (options.normals > 0.0) result.normals = CompareHalves(with_normals);
   const double scale = 0.5 * result.spread.median_distance;
   result.samples.vendi = VendiScore(clean.topLeftCorner(n, n), scale);
   result.reference.vendi = VendiScore(clean.bottomRightCorner(n, n), scale);
-  if (!training.empty()) {
-    result.memorisation = MemorisationOf(points, training, streams.training, options, place,
-                                         progress("distances to the training shapes"));
-  }
+  if (!training.empty()) result.memorisation = MemorisationOf(nearest);
   return result;
 }
 

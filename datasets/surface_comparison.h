@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "antigrasp/core/parallel.h"
+#include "antigrasp/core/work_share.h"
 #include "antigrasp/datasets/set_comparison.h"
 #include "antigrasp/mesh/triangle_mesh.h"
 
@@ -19,7 +20,8 @@ struct SurfaceComparisonOptions {
   // rules: the length that gives both the same variance. 0: no comparison with normals.
   double normals = 1.0;
   std::uint64_t seed = 1;
-  int threads = 0;  // 0 = all; the result does not depend on it
+  int threads = 0;             // 0 = all; the result does not depend on it
+  WorkShare* share = nullptr;  // whose ranks measure the distances together
 };
 
 // Whether samples are copies of what their generator was trained on: distances to the nearest
@@ -65,7 +67,7 @@ using PhaseFn = std::function<ProgressFn(const std::string&)>;
 // Samples against a reference of the same size (at least two), by Chamfer distances between points
 // of their surfaces, in the unit of the meshes and as they lie: nothing is moved, turned or scaled.
 // Every mesh needs an area. `training` may be empty. Cost: (2 n)^2 / 2 Chamfer distances, as many
-// with normals, and 2 n for each training shape.
+// with normals, and 2 n for each training shape. Without numbers on a rank that helps.
 SurfaceComparison CompareSurfaces(const std::vector<TriangleMesh>& samples,
                                   const std::vector<TriangleMesh>& reference,
                                   const std::vector<TriangleMesh>& training,

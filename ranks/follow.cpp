@@ -1,12 +1,15 @@
 #include "antigrasp/ranks/follow.h"
 
+#include <chrono>
 #include <sstream>
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/version.h"
 #include "antigrasp/ranks/job.h"
+#include "antigrasp/ranks/made_together.h"
 #include "antigrasp/ranks/ranked_model.h"
 #include "antigrasp/ranks/ranked_scorer.h"
+#include "antigrasp/ranks/ranked_share.h"
 #include "antigrasp/train/gan_model.h"
 
 namespace antigrasp {
@@ -15,8 +18,9 @@ namespace {
 // A rank that repeats what rank 0's model does.
 class Follower {
  public:
-  Follower(RankGroup* group, const JudgeMaker& make_judge)
-      : group_(group), make_judge_(make_judge), share_(group) {}
+  Follower(RankGroup* group, WorkShare* work, const JudgeMaker& make_judge,
+           const MeshRefiner& refine)
+      : group_(group), work_(work), make_judge_(make_judge), refine_(refine), share_(group) {}
 
   // Whether there is more to do.
   bool Obey() {
@@ -43,6 +47,12 @@ class Follower {
       case Order::kScore:
         ScoreTogether(group_, heard.a, group_->TensorFromLeader({}), config_, JudgeOf(), nullptr);
         break;
+      case Order::kPrior:
+        HelpWithPrior(work_);
+        break;
+      case Order::kRefine:
+        HelpRefining(work_, refine_, config_);
+        break;
       case Order::kEnd:
         return false;
     }
@@ -63,7 +73,9 @@ class Follower {
   }
 
   RankGroup* group_;
+  WorkShare* work_;
   const JudgeMaker& make_judge_;
+  const MeshRefiner& refine_;
   SharedBatch share_;
   RunConfig config_;
   std::unique_ptr<ShapeModel> model_;
@@ -97,19 +109,24 @@ ShapeModelMaker Leader::maker() {
   };
 }
 
-void FollowRanks(RankGroup* group, const JudgeMaker& make_judge) {
-  Follower follower(group, make_judge);
+void FollowRanks(RankGroup* group, WorkShare* work, const JudgeMaker& make_judge,
+                 const MeshRefiner& refine) {
+  Follower follower(group, work, make_judge, refine);
   while (follower.Obey()) {
   }
 }
 
 void RunAsJob(int processes, const std::function<std::vector<std::string>()>& same,
-              const std::function<void()>& pause, const JudgeMaker& make_judge, const RunFn& run) {
+              const std::function<void()>& pause, const JudgeMaker& make_judge,
+              const MeshRefiner& refine, const RunFn& run) {
   const std::unique_ptr<Ranks> ranks = JoinRanks(processes, same, pause);
-  if (ranks == nullptr) return run(MakeGan, nullptr);
-  if (!ranks->group().leads()) return FollowRanks(&ranks->group(), make_judge);
-  Leader leader(&ranks->group());
-  run(leader.maker(), RankedScorer(&ranks->group()));
+  if (ranks == nullptr) return run(MakeGan, {make_judge, InThreads(refine)});
+  RankGroup* const group = &ranks->group();
+  RankedShare work(group, std::chrono::seconds(0));  // Leader waits for the others
+  if (!group->leads()) return FollowRanks(group, &work, make_judge, refine);
+  Leader leader(group);
+  run(leader.maker(), {make_judge, RankedRefiner(group, &work, refine), RankedScorer(group),
+                       RankedPrior(group, &work)});
   SayOfRank(ranks->group().SentText());
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "antigrasp/core/work_share.h"
 #include "antigrasp/ranks/rank_group.h"
 #include "antigrasp/train/cem_run.h"
 
@@ -28,14 +29,16 @@ class Leader {
 };
 
 // Any other rank: does what rank 0 says until it says the end. Throws what its work throws.
-void FollowRanks(RankGroup* group, const JudgeMaker& make_judge);
+void FollowRanks(RankGroup* group, WorkShare* work, const JudgeMaker& make_judge,
+                 const MeshRefiner& refine);
 
 // A run as whatever the environment or `processes` says: alone, as rank 0 of a job, whose model and
-// scorer `run` then takes (nullptr: the usual one), or as another rank, which follows and does not
-// run. `same` and `pause`: as for JoinRanks (job.h).
-using RunFn = std::function<void(const ShapeModelMaker& make, const ScorerMaker& score)>;
+// parts `run` then takes, or as another rank, which follows and does not run. `same` and `pause`:
+// as for JoinRanks (job.h).
+using RunFn = std::function<void(const ShapeModelMaker& make, const RunParts& parts)>;
 void RunAsJob(int processes, const std::function<std::vector<std::string>()>& same,
-              const std::function<void()>& pause, const JudgeMaker& make_judge, const RunFn& run);
+              const std::function<void()>& pause, const JudgeMaker& make_judge,
+              const MeshRefiner& refine, const RunFn& run);
 
 // "antigrasp 1.2 (abc1234)" and the configuration, as all ranks must have them (JoinOptions::same).
 std::vector<std::string> SameForAll(const RunConfig& config);

@@ -33,6 +33,8 @@ enum class Order : std::int64_t {
   kStep,
   kSample,  // seed, first, count; the ranks gather blocks
   kScore,   // number of the job + network values
+  kPrior,   // + options, and items to make (ranks/made_together.h)
+  kRefine,  // + elites, likewise
   kEnd
 };
 struct OrderHeader {

@@ -1,6 +1,5 @@
 #include "antigrasp/ranks/ranked_share.h"
 
-#include <chrono>
 #include <thread>
 #include <utility>
 
@@ -12,7 +11,6 @@ namespace {
 constexpr char kText = 'T', kEnd = 'E';                     // what rank 0 tells
 constexpr char kInput = 'I', kRuntime = 'R';                // what others fail with
 constexpr const char *kLeft = "left", *kFailed = "failed";  // counters
-constexpr std::chrono::seconds kPatience(10);  // with others that are in the middle of work
 
 // Of another rank, in its words.
 class ToldInputError : public InputError {
@@ -41,7 +39,7 @@ RankedShare::~RankedShare() {
     TellAll(kEnd, "");
     const auto start = std::chrono::steady_clock::now();
     while (group_->TakeNext(kLeft, 0) + 1 < size() &&
-           std::chrono::steady_clock::now() - start < kPatience) {
+           std::chrono::steady_clock::now() - start < patience_) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   } catch (const std::exception&) {  // they are gone already

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <exception>
 #include <mutex>
 #include <string>
@@ -13,8 +14,10 @@ namespace antigrasp {
 // that has failed would keep the others.
 class RankedShare : public WorkShare {
  public:
-  explicit RankedShare(RankGroup* group) : group_(group) {}
-  ~RankedShare() override;  // rank 0 tells the end, and waits ten seconds for the others to hear it
+  // At its end rank 0 tells it, and waits for the others, which may be in the middle of an item.
+  explicit RankedShare(RankGroup* group, std::chrono::seconds patience = std::chrono::seconds(10))
+      : group_(group), patience_(patience) {}
+  ~RankedShare() override;
   RankedShare(const RankedShare&) = delete;
   RankedShare& operator=(const RankedShare&) = delete;
 
@@ -32,6 +35,7 @@ class RankedShare : public WorkShare {
   void TellAll(char kind, const std::string& text);
 
   RankGroup* group_;
+  std::chrono::seconds patience_;
   std::mutex mutex_;  // of the group
   std::int64_t told_ = 0;
 };

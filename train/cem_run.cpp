@@ -20,8 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // The prior set's network values; the set itself goes to the folder, unless it is unusable.
-torch::Tensor MakePrior(const RunConfig& config, const RunFolder& run, RunObserver* observer) {
-  const ShapeSet set = PriorOf(config, observer);
+torch::Tensor MakePrior(const RunConfig& config, const RunFolder& run, const PriorMaker& make,
+                        RunObserver* observer) {
+  const ShapeSet set = PriorOf(config, observer, make);
   torch::Tensor values = NetworkValuesOf(set, config.model, config.prior_file);
   WriteShapeSet(run.Prior(), set);
   return values;
@@ -105,7 +106,7 @@ RunResult StartRun(const RunConfig& config, const fs::path& folder, RunObserver*
   RequireNoRun(run);   // that another process has begun and left
   MakeFolder(folder);  // it is there: refuses one that cannot be written to, before the work
   ProvenanceRecorder recorder(run, ProvenanceNow(config), observer);
-  const torch::Tensor prior = MakePrior(config, run, &recorder);
+  const torch::Tensor prior = MakePrior(config, run, parts.make_prior, &recorder);
   WriteFileAtomic(run.Config(), ToToml(config));
   return Finish(config, run, prior, &recorder, make, judge.get(), parts);
 }

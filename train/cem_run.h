@@ -11,6 +11,7 @@
 #include "antigrasp/train/make_gan.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_folder.h"
+#include "antigrasp/train/run_inputs.h"
 #include "antigrasp/train/selection.h"
 #include "antigrasp/train/statistics.h"
 
@@ -35,6 +36,7 @@ struct RunParts {
   JudgeMaker make_judge;         // of a run whose cem.score is not "epsilon"
   EliteRefiner refine;           // of a run with cem.refine_steps
   ScorerMaker make_scorer = {};  // of one that shares its samples out
+  PriorMaker make_prior = {};    // of one that shares that out
 };
 
 // The CEM + GAN algorithm (V-B, VI-C): train the GAN on the prior set, then repeatedly sample,

@@ -14,8 +14,9 @@ void Bind(OptionTable* table, GanOptions* options) {
              "number of them; 0 = in one piece");
   table->Add("gan.discriminator_steps", &options->discriminator_steps, 1, 100,
              "discriminator updates for each generator update");
-  table->Add("gan.cuda_graphs", &options->cuda_graphs,
-             "steps on a GPU are recorded once and replayed (LibTorch 2 for CUDA); written, not yet run");
+  table->Add(
+      "gan.cuda_graphs", &options->cuda_graphs,
+      "steps on a GPU are recorded once and replayed (LibTorch 2 for CUDA); written, not yet run");
   table->Add("gan.learning_rate_g", &options->learning_rate_g, 0, 1, "Adam's rate, generator");
   table->Add("gan.learning_rate_d", &options->learning_rate_d, 0, 1, "Adam's rate, discriminator");
   table->Add("gan.rest_below", &options->rest_below, 0, 2,

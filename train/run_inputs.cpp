@@ -55,13 +55,14 @@ void RequireSamePrior(const RunConfig& config, const RunConfig& start) {
 
 }  // namespace
 
-ShapeSet PriorOf(const RunConfig& config, RunObserver* observer) {
+ShapeSet PriorOf(const RunConfig& config, RunObserver* observer, const PriorMaker& make) {
   if (!config.prior_file.empty()) return ReadShapeSet(config.prior_file);
   PriorSetOptions options = config.prior;
   options.resolution = config.model.resolution;
   options.threads = config.threads;
-  return MakePriorSet(
-      options, observer->Phase("making " + std::to_string(options.count) + " " + options.kind));
+  const ProgressFn progress =
+      observer->Phase("making " + std::to_string(options.count) + " " + options.kind);
+  return make ? make(options, progress) : MakePriorSet(options, progress);
 }
 
 void RequireFittingStart(const RunConfig& config) {

@@ -41,6 +41,23 @@ BoundingBox RoomFor(const SdfGrid& grid) {
 
 }  // namespace
 
+EliteRefiner InThreads(MeshRefiner refine) {
+  if (!refine) return nullptr;
+  return
+      [refine = std::move(refine)](const std::vector<RoughElite>& elites, const RunConfig& config,
+                                   const BoundingBox& within, const ProgressFn& progress) {
+        std::vector<TriangleMesh> refined(elites.size());
+        ParallelFor(
+            std::ssize(elites), config.threads,
+            [&](std::int64_t i) {
+              const RoughElite& elite = elites[static_cast<std::size_t>(i)];
+              refined[static_cast<std::size_t>(i)] = refine(elite.mesh, config, within, elite.seed);
+            },
+            progress);
+        return refined;
+      };
+}
+
 EliteSelector::EliteSelector(const RunConfig& config, torch::Tensor prior, EliteRefiner refine)
     : config_(config), prior_(std::move(prior)), refine_(std::move(refine)) {
   AG_CHECK(config_.cem.refine_steps == 0 || refine_, "somebody refines the elites");
@@ -129,16 +146,27 @@ torch::Tensor EliteSelector::ExactValues(const ScoredStage& scored,
                                          const ProgressFn& progress) const {
   ShapeSet exact;
   exact.grids.assign(indices.size(), UnitCubeGrid(config_.model.resolution));
-  const auto stage = static_cast<std::uint64_t>(episode);
-  const auto fill = [&](std::int64_t i) {
-    const auto object = static_cast<std::size_t>(indices[static_cast<std::size_t>(i)]);
-    const TriangleMesh& mesh = scored.objects[object].mesh;
-    SdfGrid* grid = &exact.grids[static_cast<std::size_t>(i)];
-    if (config_.cem.refine_steps == 0) return MeshToSdf(mesh, grid);
-    const std::uint64_t seed = RngStream(config_.seed, "refine", stage, object).NextU64();
-    MeshToSdf(refine_(mesh, config_, RoomFor(*grid), seed), grid);
+  const auto mesh = [&](std::size_t i) -> const TriangleMesh& {
+    return scored.objects[static_cast<std::size_t>(indices[i])].mesh;
   };
-  ParallelFor(static_cast<std::int64_t>(indices.size()), config_.threads, fill, progress);
+  std::vector<TriangleMesh> refined;
+  const bool refine = config_.cem.refine_steps > 0;
+  if (refine) {
+    std::vector<RoughElite> rough;
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      RngStream rng(config_.seed, "refine", static_cast<std::uint64_t>(episode),
+                    static_cast<std::uint64_t>(indices[i]));
+      rough.push_back({mesh(i), rng.NextU64()});
+    }
+    refined = refine_(rough, config_, RoomFor(UnitCubeGrid(config_.model.resolution)), progress);
+  }
+  ParallelFor(
+      std::ssize(indices), config_.threads,
+      [&](std::int64_t i) {
+        const auto slot = static_cast<std::size_t>(i);
+        MeshToSdf(refine ? refined[slot] : mesh(slot), &exact.grids[slot]);
+      },
+      refine ? ProgressFn() : progress);
   return NetworkValuesOf(exact, config_.model, "the elites");
 }
 

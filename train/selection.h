@@ -25,8 +25,18 @@ struct Selection {
 // A shape that is harder to grasp than `mesh`, looks like it and lies within the box; the mesh
 // itself where none is found. Unit cube coordinates; `seed` names the random stream; called on any
 // thread.
-using EliteRefiner = std::function<TriangleMesh(const TriangleMesh& mesh, const RunConfig& config,
-                                                const BoundingBox& within, std::uint64_t seed)>;
+using MeshRefiner = std::function<TriangleMesh(const TriangleMesh& mesh, const RunConfig& config,
+                                               const BoundingBox& within, std::uint64_t seed)>;
+
+// The elites of an episode by a MeshRefiner, each with its own seed, in their order.
+struct RoughElite {
+  TriangleMesh mesh;
+  std::uint64_t seed = 0;
+};
+using EliteRefiner = std::function<std::vector<TriangleMesh>(
+    const std::vector<RoughElite>& elites, const RunConfig& config, const BoundingBox& within,
+    const ProgressFn& progress)>;
+EliteRefiner InThreads(MeshRefiner refine);  // of this process
 
 // Picks elites by the rules of cem.variant:
 //   kPaper        the cem.keep least graspable of all samples (V-B, VI-C).

@@ -24,14 +24,14 @@ RunConfig Checked(RunConfig config) {
 
 }  // namespace
 
-SteppedRun::SteppedRun(RunConfig config, RunObserver* observer, Judge* judge, EliteRefiner refine)
+SteppedRun::SteppedRun(RunConfig config, RunObserver* observer, Judge* judge, MeshRefiner refine)
     : config_(Checked(std::move(config))), observer_(observer), model_(MakeGan(config_)) {
   const torch::Tensor prior =
       NetworkValuesOf(PriorOf(config_, observer), config_.model, config_.prior_file);
   loop_ = std::make_unique<CemLoop>(config_, model_.get(), prior,
                                     judge != nullptr ? JudgedScorer(config_, judge, observer)
                                                      : GraspabilityScorer(config_, observer),
-                                    observer, std::move(refine));
+                                    observer, InThreads(std::move(refine)));
   if (!config_.start.empty()) {
     const std::filesystem::path networks = FindNetworks(config_.start);
     model_->LoadNetworks(ReadCheckpoint(networks).networks, networks.string());

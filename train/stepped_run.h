@@ -17,7 +17,7 @@ class SteppedRun {
   // as long as this. InputError for a configuration that does not fit, with cem.control, and for
   // inputs as RequireInputs.
   SteppedRun(RunConfig config, RunObserver* observer, Judge* judge = nullptr,
-             EliteRefiner refine = nullptr);
+             MeshRefiner refine = nullptr);
   ~SteppedRun();
 
   // Trains, samples and scores the next episode, the first time also the prior set; nullptr after

@@ -119,6 +119,20 @@ def perturb(folder):
 
 def dataset(folder):
     same(folder, "dataset", "make", "prisms", "--count", 40, "--resolution", 16, "--out", "OUT/set.h5")
+    meshes = objects(folder)
+    lines = next((meshes / "prisms").glob("*.obj")).read_text().splitlines()
+    large = [" ".join(["v", *(str(100 * float(x)) for x in line.split()[1:4])]) if line.startswith("v ") else line for line in lines]
+    (meshes / "large.obj").write_text("\n".join(large) + "\n")
+    for scale in ("set", "each"):  # with an open one, and one that is too large for a set of one factor
+        same(folder, "dataset", "import", meshes, "--scale", scale, "--resolution", 16, "--out", f"OUT/{scale}.h5", "--report", f"OUT/{scale}.csv")
+
+
+def compare(folder):
+    for kind, seed in (("prisms", 1), ("cylinders", 2), ("prisms", 3)):
+        run("dataset", "make", kind, "--count", 12, "--seed", seed, "--resolution", 16, "--out", folder / f"{kind}{seed}.h5", check=True)
+    sets = [folder / "prisms1.h5", folder / "cylinders2.h5"]
+    same(folder, "compare", *sets, "--points", 64, "--train", folder / "prisms3.h5", "--out", "OUT/compared.csv")
+    same(folder, "compare", *sets, "--points", 64, "--normals", 0)
 
 
 def launchers(folder):
@@ -200,5 +214,5 @@ def killed(folder):
 
 
 with tempfile.TemporaryDirectory() as temporary:
-    cases = (evaluate, judged, trial, perturb, dataset, launchers, refused, interrupted, killed)
+    cases = (evaluate, judged, trial, perturb, dataset, compare, launchers, refused, interrupted, killed)
     {f.__name__: f for f in cases}[CASE](pathlib.Path(temporary))

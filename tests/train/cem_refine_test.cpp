@@ -29,13 +29,14 @@ TEST(CemRefine, ElitesAreRefinedInTheRunAndNotInItsControl) {
   EXPECT_THROW(StartRun(config, folder / "run", &observer), InputError);
   std::atomic<int> refined = 0;
   const TriangleMesh sphere = shapes::Sphere(0.3, 3);
-  const EliteRefiner rounded = [&](const TriangleMesh&, const RunConfig& of, const BoundingBox&,
-                                   std::uint64_t) {
+  const MeshRefiner rounded = [&](const TriangleMesh&, const RunConfig& of, const BoundingBox&,
+                                  std::uint64_t) {
     EXPECT_EQ(of.cem.select, EliteOrder::kGraspability);
     ++refined;
     return sphere;
   };
-  const RunResult result = StartRun(config, folder / "run", &observer, MakeGan, {nullptr, rounded});
+  const RunResult result =
+      StartRun(config, folder / "run", &observer, MakeGan, {nullptr, InThreads(rounded)});
   const RunFolder run{folder / "run"};
   int elites = 0;
   for (int episode = 0; episode <= config.cem.episodes; ++episode) {

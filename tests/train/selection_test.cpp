@@ -197,7 +197,7 @@ TEST(EliteSelector, LearnsTheDistancesToElitesAsTheyWereRefined) {
     seeds.push_back(seed);
     return scored.objects[0].mesh;
   };
-  const EliteSelector selector(config, ValuesOf(Ball(0.3)), refine);
+  const EliteSelector selector(config, ValuesOf(Ball(0.3)), InThreads(refine));
   const Selection selection = selector.Select(scored, 0);
   const torch::Tensor first = selector.Elites(scored, selection, 1, nullptr);
   EXPECT_EQ(first.size(0), 1);
