@@ -39,7 +39,7 @@ function(antigrasp_test name)
     antigrasp_read_precompiled(${name}_test tests)
   endif()
   gtest_discover_tests(${name}_test TEST_PREFIX ${name}/ DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 600 LABELS "${name};single;${ARG_LABELS}")
+                       PROPERTIES TIMEOUT 600 LABELS "${name};${ARG_LABELS}")
   antigrasp_test_in_few_processes(${name} "${ARG_PROCESSES}" "${name};${ARG_LABELS}")
 endfunction()
 
