@@ -23,10 +23,12 @@ function(antigrasp_see_own_room target)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:include>)
 endfunction()
 
-# antigrasp_test(core SOURCES a_test.cpp LIBS antigrasp::core [LABELS slow])
-# One executable per folder; every TEST becomes a CTest named <folder>/<Suite.Name>.
+# antigrasp_test(core SOURCES a_test.cpp LIBS antigrasp::core [LABELS slow] [PROCESSES 4])
+# One executable per folder; every TEST becomes a CTest named <folder>/<Suite.Name>, a process each. With `ctest -C rooms`,
+# which the test presets rooms and asan say, the same tests also run in PROCESSES processes, <folder>/1_of_4 and so on:
+# starting one takes half a second with LibTorch, and as long under the sanitizers.
 function(antigrasp_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "PROCESSES" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${name}_test ${ARG_SOURCES})
   target_link_libraries(${name}_test PRIVATE antigrasp_options ${ARG_LIBS} antigrasp_test_support
                                              GTest::gtest GTest::gtest_main)
@@ -38,4 +40,19 @@ function(antigrasp_test name)
   endif()
   gtest_discover_tests(${name}_test TEST_PREFIX ${name}/ DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 600 LABELS "${name};${ARG_LABELS}")
+  antigrasp_test_in_few_processes(${name} "${ARG_PROCESSES}" "${name};${ARG_LABELS}")
+endfunction()
+
+function(antigrasp_test_in_few_processes name processes labels)
+  if(NOT processes)
+    set(processes 1)
+  endif()
+  foreach(number RANGE 1 ${processes})
+    set(test ${name}/${number}_of_${processes})
+    math(EXPR index "${number} - 1")
+    add_test(NAME ${test} COMMAND ${name}_test CONFIGURATIONS rooms)
+    # COST: what takes long begins first, so that no process is left alone at the end.
+    set_tests_properties(${test} PROPERTIES TIMEOUT 1200 LABELS "${labels}" COST ${processes}
+                         ENVIRONMENT "GTEST_TOTAL_SHARDS=${processes};GTEST_SHARD_INDEX=${index}")
+  endforeach()
 endfunction()

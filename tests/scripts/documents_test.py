@@ -1,5 +1,5 @@
 """Every call of antigrasp that README.md, docs/commands.md and docs/tour.md show, made in their order: it succeeds (or is refused) and
-prints the lines shown, whatever the numbers in them. Sets are small and training is short; the rest is as written."""
+prints the lines shown, whatever the numbers in them. Sets are small, training and searches are short; the rest is as written."""
 import os
 import pathlib
 import re
@@ -15,6 +15,10 @@ BINARY = os.environ["ANTIGRASP_BINARY"]
 SHORT = ["--set", "cem.episodes=1", "--set", "cem.samples=16", "--set", "cem.keep=4", "--set", "cem.control=false", "--set", "cem.iterations=2",
          "--set", "cem.checkpoint_every=2", "--set", "cem.prior_iterations=2", "--set", "metric.num_grasps=10",
          "--set", "metric.num_draws=3", "--set", "run.torch_threads=1"]
+
+# Options that a call gets where it does not say them itself.
+QUICK = {"search for a judge": {"--starts": 1, "--descent-steps": 20, "--generations": 2, "--num-grasps": 30},
+         "search": {"--steps": 30}, "trial": {"--num-grasps": 20}, "bundle": {"--parts": 4}}
 
 
 def examples(document):
@@ -37,6 +41,9 @@ def shortened(words):
         if flag in words:
             at = words.index(flag) + 1
             words[at] = str(min(int(words[at]), most))
+    command = "search" if words[:2] == ["perturb", "search"] else words[0]
+    command += " for a judge" if "--objective" in words else ""
+    words += [str(word) for option in QUICK.get(command, {}).items() if option[0] not in words for word in option]
     if words[0] == "train" and "--resume" not in words:
         extra = list(SHORT)
         if not any(word.startswith("prior.file=") for word in words):
