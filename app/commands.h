@@ -27,6 +27,7 @@ void AddFigureCommand(CLI::App* app);
 void AddExportCommand(CLI::App* app);
 void AddBundleCommand(CLI::App* app);
 void AddGeneratorCommand(CLI::App* app);
+void AddDoctorCommand(CLI::App* app);
 void AddInfoCommand(CLI::App* app);         // of meshes and SDF files; else the next
 void AddNetworkInfoCommand(CLI::App* app);  // of checkpoints and runs
 

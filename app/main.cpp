@@ -34,6 +34,7 @@ void AddCommands(CLI::App* app) {
   AddBundleCommand(app);
   Name(kGenerator, app);
   AddInfoCommand(app);
+  AddDoctorCommand(app);
 }
 
 }  // namespace

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <string>
+
+#include "antigrasp/core/child_process.h"
+
 namespace antigrasp {
 
 // LibTorch takes 0.4 s and 170 MB to load. So there are two programs: `antigrasp`, which people
@@ -29,5 +33,7 @@ bool NeedsNetworks(int argc, char** argv);
 // main(), which RememberArguments was told. RuntimeFailure when there is none.
 void RememberArguments(char** argv);
 [[noreturn]] void BecomeNetworks();
+// A process of its own does this command of it, and is waited for.
+ChildEnd RunNetworks(const std::string& command);
 
 }  // namespace antigrasp

@@ -2,9 +2,12 @@
 // `antigrasp` starts it; nobody else has to.
 #include <malloc.h>
 
+#include <cstdlib>
+
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
 #include "antigrasp/app/program.h"
+#include "antigrasp/doctor/examine_networks.h"
 #include "antigrasp/ranks/run_shared.h"
 
 namespace antigrasp {
@@ -27,6 +30,9 @@ void AddCommands(CLI::App* app) {
   AddFigureCommand(app);
   AddGeneratorCommand(app);
   AddNetworkInfoCommand(app);
+  app->add_subcommand("doctor", "What antigrasp doctor says of the networks")->callback([] {
+    if (!ExamineNetworks(&PrintNow)) std::exit(kOtherBytes);
+  });
 }
 
 }  // namespace

@@ -33,6 +33,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-antigrasp)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${ANTIGRASP_PYTHON_NEEDS}")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS antigrasp)  # the networks that ship
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    "${CMAKE_CURRENT_LIST_DIR}/python_package/postinst;${CMAKE_CURRENT_LIST_DIR}/python_package/prerm")
 include(CPack)
 cpack_add_component(Unspecified GROUP program)
 cpack_add_component(networks GROUP program)

@@ -46,9 +46,9 @@ TEST(Cli, HelpNamesEveryCommandAndEveryCommandHasHelp) {
   const Outcome help = Antigrasp("help");
   EXPECT_EQ(help.code, 0);
   const std::vector<std::string> commands = CommandsIn(help.text);
-  for (const char* command :
-       {"dataset", "train", "sample", "remesh", "evaluate", "compare", "quality", "perturb",
-        "shape", "poses", "trial", "gripper", "sheet", "figure", "export", "generator", "info"}) {
+  for (const char* command : {"dataset", "train", "sample", "remesh", "evaluate", "compare",
+                              "quality", "perturb", "shape", "poses", "trial", "gripper", "sheet",
+                              "figure", "export", "generator", "info", "doctor"}) {
     EXPECT_TRUE(std::find(commands.begin(), commands.end(), command) != commands.end()) << command;
   }
   for (const std::string& command : commands) {

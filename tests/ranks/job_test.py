@@ -65,6 +65,14 @@ def processes(folder):
     expect_equal(one, folder / "of3")
 
 
+def refined(folder):
+    """The prior set and the refining of elites are shared as well."""
+    settings = ("--set", "cem.refine_steps=3", "metric.friction=0.25")
+    for name, more in (("alone", ()), ("of2", ("--processes", "2"))):
+        subprocess.run(call(folder / name, *settings, *more), check=True, env=environment(), capture_output=True)
+    expect_equal(folder / "alone", folder / "of2")
+
+
 def by_environment(folder):
     one = alone(folder)
     for process in ranks(folder, 5, lambda rank: call(folder / "five")):  # one more than parts of a batch
@@ -178,6 +186,6 @@ def interrupted(folder):
 
 
 with tempfile.TemporaryDirectory() as temporary:
-    {f.__name__: f for f in (processes, by_environment, mpirun, torchrun, killed, kills, killed_at_the_door,
+    {f.__name__: f for f in (processes, refined, by_environment, mpirun, torchrun, killed, kills, killed_at_the_door,
                                 other_settings, interrupted)}[CASE](
         pathlib.Path(temporary))
