@@ -38,6 +38,12 @@ std::string Address(const Launch& launch) {
 
 std::vector<std::uint8_t> Bytes(const std::string& text) { return {text.begin(), text.end()}; }
 
+// LibTorch 2.x asks for libuv's sockets by default; Debian's is built without them.
+template <typename Options>
+void TakeOwnSockets(Options* store) {
+  if constexpr (requires { store->useLibUV; }) store->useLibUV = false;
+}
+
 // A connection to the store; tried again until it stands, and said every ten seconds.
 c10::intrusive_ptr<c10d::TCPStore> Connect(const Launch& launch, bool serve,
                                            const JoinOptions& options) {
@@ -47,6 +53,7 @@ c10::intrusive_ptr<c10d::TCPStore> Connect(const Launch& launch, bool serve,
     store.port = launch.port;
     store.isServer = serve;
     store.waitWorkers = false;
+    TakeOwnSockets(&store);
     store.timeout = kSayEvery;
     try {
       auto tcp = c10::make_intrusive<c10d::TCPStore>(launch.host, store);
@@ -263,7 +270,8 @@ torch::Tensor GlooGroup::ToEachOfFirst(int ranks, const torch::Tensor& slices) {
 }
 
 void GlooGroup::FromLeader(torch::Tensor* tensor) {
-  std::vector<torch::Tensor> tensors = {*tensor};
+  // As bytes: Gloo in some builds of LibTorch knows no half precision.
+  std::vector<torch::Tensor> tensors = {tensor->view({-1}).view(at::kByte)};
   c10d::BroadcastOptions options;
   options.rootRank = 0;
   options.timeout = kLong;
