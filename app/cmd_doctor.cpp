@@ -11,7 +11,7 @@ void AddDoctorCommand(CLI::App* app) {
       ->callback([] {
         ConsoleObserver observer;
         Examine(
-            &PrintNow, [] { return RunNetworks("doctor"); }, &observer);
+            &PrintNow, [] { return RunChild(PreparedNetworks(), {"doctor"}); }, &observer);
       });
 }
 

@@ -93,11 +93,6 @@ void ThrowIfInterrupted() {
   if (InterruptRequested()) throw Interrupted();
 }
 
-void PrintNow(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
-}
-
 void Warn(const std::string& text) { spdlog::warn("{}", text); }
 
 }  // namespace antigrasp

@@ -30,9 +30,6 @@ class ConsoleObserver : public RunObserver {
 
 void ThrowIfInterrupted();
 
-// On standard output, at once: another process may print there next.
-void PrintNow(const std::string& text);
-
 // A warning in the log.
 void Warn(const std::string& text);
 

@@ -41,17 +41,6 @@ void TellOfInstalledNetworks(const std::filesystem::path& program) {
   }
 }
 
-// The path of antigrasp-networks, which finds in the environment what it needs.
-std::filesystem::path PreparedProgram() {
-  const auto program =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "antigrasp-networks";
-  AskForTheSameKernelsEverywhere();
-  // c10d logs every try to reach a rank that has not begun yet; we say who waits for whom.
-  if (std::getenv("WORLD_SIZE")) setenv("GLOG_minloglevel", "3", kKeepTheUsersOwn);
-  TellOfInstalledNetworks(program);
-  return program;
-}
-
 }  // namespace
 
 bool NeedsNetworks(int argc, char** argv) {
@@ -66,13 +55,21 @@ bool NeedsNetworks(int argc, char** argv) {
 
 void RememberArguments(char** argv) { g_arguments = argv; }
 
+std::filesystem::path PreparedNetworks() {
+  const auto program =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "antigrasp-networks";
+  AskForTheSameKernelsEverywhere();
+  // c10d logs every try to reach a rank that has not begun yet; we say who waits for whom.
+  if (std::getenv("WORLD_SIZE")) setenv("GLOG_minloglevel", "3", kKeepTheUsersOwn);
+  TellOfInstalledNetworks(program);
+  return program;
+}
+
 void BecomeNetworks() {
-  const std::filesystem::path program = PreparedProgram();
+  const std::filesystem::path program = PreparedNetworks();
   execv(program.c_str(), g_arguments);
   throw RuntimeFailure(program.string() + " cannot be started (" + std::strerror(errno) +
                        "): this command needs the build with LibTorch");
 }
-
-ChildEnd RunNetworks(const std::string& command) { return RunChild(PreparedProgram(), {command}); }
 
 }  // namespace antigrasp

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <string>
-
-#include "antigrasp/core/child_process.h"
+#include <filesystem>
 
 namespace antigrasp {
 
@@ -33,7 +31,7 @@ bool NeedsNetworks(int argc, char** argv);
 // main(), which RememberArguments was told. RuntimeFailure when there is none.
 void RememberArguments(char** argv);
 [[noreturn]] void BecomeNetworks();
-// A process of its own does this command of it, and is waited for.
-ChildEnd RunNetworks(const std::string& command);
+// Its path; what it looks for in the environment is there then.
+std::filesystem::path PreparedNetworks();
 
 }  // namespace antigrasp

@@ -1,10 +1,17 @@
 #include "antigrasp/doctor/examine.h"
 
+#include <cstdio>
+
 #include "antigrasp/core/error.h"
 #include "antigrasp/doctor/build_facts.h"
 #include "antigrasp/doctor/self_test.h"
 
 namespace antigrasp {
+
+void PrintNow(const std::string& lines) {
+  std::fputs(lines.c_str(), stdout);
+  std::fflush(stdout);
+}
 
 void Examine(const PrintFn& print, const std::function<ChildEnd()>& networks,
              RunObserver* observer) {

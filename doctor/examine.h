@@ -12,6 +12,8 @@ namespace antigrasp {
 inline constexpr int kOtherBytes = 3;
 
 using PrintFn = std::function<void(const std::string& lines)>;
+// On standard output, at once: another process prints there next.
+void PrintNow(const std::string& lines);
 
 // `antigrasp doctor`: prints BuildFacts and what RunSelfTest found, then, in a build with networks,
 // lets `networks` run ExamineNetworks in a process of its own, which may not even start.
