@@ -127,7 +127,8 @@ int RunProgram(int argc, char** argv, const std::function<void(CLI::App*)>& add_
   InstallSignalHandlers();
   try {
     const int code = Parse(argc, argv, add_commands);
-    const bool written = code != 0 || std::fflush(stdout) == 0;
+    // What was flushed on the way and failed is not asked again.
+    const bool written = code != 0 || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0);
     return written ? code : Fail(kFailure, "cannot write to standard output");
   } catch (const InputError& error) {
     return Fail(kBadInput, error.what());

@@ -6,7 +6,10 @@
 #include <torch/cuda.h>
 #include <torch/version.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <sstream>
+#include <string>
 
 #include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/doctor/build_facts.h"
@@ -55,9 +58,20 @@ std::string Devices() {
 }
 
 std::string Pretrained() {
-  std::string names;
-  for (const std::string& name : PretrainedNames()) names += (names.empty() ? "" : ", ") + name;
-  return names.empty() ? "none was found" : names;
+  std::string names, where;
+  for (const std::string& name : PretrainedNames()) {
+    names += (names.empty() ? "" : ", ") + name;
+    const std::string folder = FindNetworks(name).parent_path().string();
+    if (where.find(folder) == std::string::npos) where += (where.empty() ? "" : ", ") + folder;
+  }
+  return names.empty() ? "none was found" : names + " (" + where + ")";
+}
+
+// Of a folder that was asked for and is none, or nothing.
+std::string MissingFolder() {
+  const char* const asked = std::getenv("ANTIGRASP_PRETRAINED");
+  if (asked == nullptr || std::filesystem::is_directory(asked)) return "";
+  return FactLine("", std::string("not in ANTIGRASP_PRETRAINED, which is no folder: ") + asked);
 }
 
 }  // namespace
@@ -67,7 +81,7 @@ std::string NetworkFacts() {
       LibrariesText({{"Cairo", CAIRO_VERSION_STRING, cairo_version_string()}});
   return FactLine("networks", "LibTorch " TORCH_VERSION + TorchFile() + ", " + cairo) +
          FactLine("kernels", Kernels()) + FactLine("devices", Devices()) +
-         FactLine("networks found", Pretrained());
+         FactLine("networks found", Pretrained()) + MissingFolder();
 }
 
 }  // namespace antigrasp

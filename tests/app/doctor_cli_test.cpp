@@ -25,6 +25,23 @@ TEST(DoctorCli, TellsOfMeshesAndNetworksAndThatAllBytesAreTheExpectedOnes) {
   }
 }
 
+TEST(DoctorCli, SaysWhichFolderTheNetworksAreInAndThatOneAskedForIsNone) {
+  const Outcome outcome = Shell("ANTIGRASP_PRETRAINED=/nonsense " ANTIGRASP_BINARY " doctor");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("checkpoints/pretrained)\n"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("not in ANTIGRASP_PRETRAINED, which is no folder: /nonsense\n"),
+            std::string::npos)
+      << outcome.text;
+}
+
+TEST(DoctorCli, AReportThatCannotBeWrittenIsNoSuccess) {
+  for (const char* call : {" doctor >/dev/full", " --version >/dev/full", " doctor >&-"}) {
+    const Outcome outcome = Shell(std::string(ANTIGRASP_BINARY) + call);
+    EXPECT_EQ(outcome.code, 1) << call << outcome.text;
+    EXPECT_NE(outcome.text.find("cannot write to standard output"), std::string::npos) << call;
+  }
+}
+
 // `antigrasp` beside another antigrasp-networks: what a broken installation looks like.
 Outcome DoctorBeside(const std::string& networks) {
   const TempFolder folder;
