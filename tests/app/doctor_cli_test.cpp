@@ -36,7 +36,7 @@ TEST(DoctorCli, SaysWhichFolderTheNetworksAreInAndThatOneAskedForIsNone) {
 
 TEST(DoctorCli, AReportThatCannotBeWrittenIsNoSuccess) {
   for (const char* call : {" doctor >/dev/full", " --version >/dev/full", " doctor >&-"}) {
-    const Outcome outcome = Shell(std::string(ANTIGRASP_BINARY) + call);
+    const Outcome outcome = Shell("(" + std::string(ANTIGRASP_BINARY) + call + ")");
     EXPECT_EQ(outcome.code, 1) << call << outcome.text;
     EXPECT_NE(outcome.text.find("cannot write to standard output"), std::string::npos) << call;
   }
