@@ -75,9 +75,9 @@ def refined(folder):
 
 def by_environment(folder):
     one = alone(folder)
-    for process in ranks(folder, 5, lambda rank: call(folder / "five")):  # one more than parts of a batch
+    for process in ranks(folder, 8, lambda rank: call(folder / "eight")):  # twice as many as parts of a batch
         assert process.wait() == 0, process.stderr.read()
-    expect_equal(one, folder / "five")
+    expect_equal(one, folder / "eight")
 
 
 def mpirun(folder):
