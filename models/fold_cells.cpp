@@ -1,6 +1,7 @@
 #include "antigrasp/models/fold_cells.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <vector>
 
 namespace antigrasp {
@@ -35,35 +36,91 @@ void BlurPass(const float* src, int volume, int stride, float* dst) {
   }
 }
 
-}  // namespace
+// Runs of a length that the compiler knows are copied without a call. Number of channels, 0: any.
+template <typename Run>
+void WithChannels(int c, const Run& run) {
+  switch (c) {
+    case 1:
+      return run(std::integral_constant<int, 1>());
+    case 8:
+      return run(std::integral_constant<int, 8>());
+    case 16:
+      return run(std::integral_constant<int, 16>());
+    default:
+      return run(std::integral_constant<int, 0>());
+  }
+}
 
-void FoldNodes(const float* grid, int s, int c, float* cells) {
-  const int h = s / 2 + 1, step = 8 * c;
-  std::fill(cells, cells + h * h * h * step, 0.0F);
-  for (int z = 0; z < s; ++z) {
-    for (int y = 0; y < s; ++y, grid += s * c) {
-      float* row = cells + RowOffset(z, y, h, c);
-      std::copy(grid, grid + c, row + c);  // node 0
-      for (int i = 1; i < h - 1; ++i) {    // nodes 2 i - 1 and 2 i
-        std::copy(grid + (2 * i - 1) * c, grid + (2 * i + 1) * c, row + i * step);
+template <int kChannels>
+void ClearRingNodes(int s, int any, float* cells) {
+  const int c = kChannels > 0 ? kChannels : any, h = s / 2 + 1;
+  const auto clear = [=](int z, int y, int x, int phase) {
+    std::fill_n(cells + (((z * h + y) * h + x) * 8 + phase) * c, c, 0.0F);
+  };
+  for (int phase = 0; phase < 8; ++phase) {
+    // Phase 0 of the first cell is node -1, phase 1 of the last is node s.
+    const auto ring = [phase, h](int bit) { return (phase & bit) != 0 ? h - 1 : 0; };
+    for (int i = 0; i < h; ++i) {
+      for (int j = 0; j < h; ++j) {
+        clear(ring(4), i, j, phase);
+        clear(i, ring(2), j, phase);
+        clear(i, j, ring(1), phase);
       }
-      std::copy(grid + (s - 1) * c, grid + s * c, row + (h - 1) * step);
     }
   }
 }
 
-void UnfoldCells(const float* cells, int s, int c, float* grid) {
-  const int h = s / 2 + 1, step = 8 * c;
+template <int kChannels>
+void FoldRows(const float* grid, int s, int any, float* cells) {
+  const int c = kChannels > 0 ? kChannels : any, h = s / 2 + 1, step = 8 * c;
+  ClearRingNodes<kChannels>(s, c, cells);
+  for (int z = 0; z < s; ++z) {
+    for (int y = 0; y < s; ++y, grid += s * c) {
+      float* row = cells + RowOffset(z, y, h, c);
+      std::copy_n(grid, c, row + c);     // node 0
+      for (int i = 1; i < h - 1; ++i) {  // nodes 2 i - 1 and 2 i
+        std::copy_n(grid + (2 * i - 1) * c, 2 * c, row + i * step);
+      }
+      std::copy_n(grid + (s - 1) * c, c, row + (h - 1) * step);
+    }
+  }
+}
+
+template <int kChannels>
+void UnfoldRows(const float* cells, int s, int any, float* grid) {
+  const int c = kChannels > 0 ? kChannels : any, h = s / 2 + 1, step = 8 * c;
   for (int z = 0; z < s; ++z) {
     for (int y = 0; y < s; ++y, grid += s * c) {
       const float* row = cells + RowOffset(z, y, h, c);
-      std::copy(row + c, row + 2 * c, grid);
+      std::copy_n(row + c, c, grid);
       for (int i = 1; i < h - 1; ++i) {
-        std::copy(row + i * step, row + i * step + 2 * c, grid + (2 * i - 1) * c);
+        std::copy_n(row + i * step, 2 * c, grid + (2 * i - 1) * c);
       }
-      std::copy(row + (h - 1) * step, row + (h - 1) * step + c, grid + (s - 1) * c);
+      std::copy_n(row + (h - 1) * step, c, grid + (s - 1) * c);
     }
   }
+}
+
+// row = x - gain * (the part of the Laplacian along one axis): to the neighbour above, then from
+// the one below; nullptr beyond the grid.
+void AddSlopes(const float* x, const float* above, const float* below, int s, float gain,
+               float* row) {
+  if (above != nullptr) {
+    for (int i = 0; i < s; ++i) row[i] -= (above[i] - x[i]) * gain;
+  }
+  if (below != nullptr) {
+    for (int i = 0; i < s; ++i) row[i] += (x[i] - below[i]) * gain;
+  }
+}
+
+}  // namespace
+
+void FoldNodes(const float* grid, int s, int c, float* cells) {
+  WithChannels(c, [&](auto channels) { FoldRows<channels>(grid, s, c, cells); });
+}
+
+void UnfoldCells(const float* cells, int s, int c, float* grid) {
+  WithChannels(c, [&](auto channels) { UnfoldRows<channels>(cells, s, c, grid); });
 }
 
 void BlurCells(const float* cells, int s, float* result) {
@@ -86,22 +143,24 @@ void BlurCells(const float* cells, int s, float* result) {
   });
 }
 
-void ClearRing(int s, float* cells) {
-  const int h = s / 2 + 1;
-  const auto clear = [cells, h](int z, int y, int x, int phase) {
-    cells[((z * h + y) * h + x) * 8 + phase] = 0.0F;
-  };
-  for (int phase = 0; phase < 8; ++phase) {
-    // Phase 0 of the first cell is node -1, phase 1 of the last is node s.
-    const auto ring = [phase, h](int bit) { return (phase & bit) != 0 ? h - 1 : 0; };
-    for (int i = 0; i < h; ++i) {
-      for (int j = 0; j < h; ++j) {
-        clear(ring(4), i, j, phase);
-        clear(i, ring(2), j, phase);
-        clear(i, j, ring(1), phase);
-      }
+void ClearRing(int s, float* cells) { ClearRingNodes<1>(s, 1, cells); }
+
+void EmphasizeNodes(const float* cells, int s, float gain, float* result) {
+  const int plane = s * s;
+  std::vector<float> nodes(static_cast<std::size_t>(s) * plane), sharp(nodes.size());
+  UnfoldCells(cells, s, 1, nodes.data());
+  const float* x = nodes.data();
+  float* row = sharp.data();
+  for (int z = 0; z < s; ++z) {
+    for (int y = 0; y < s; ++y, x += s, row += s) {
+      std::copy_n(x, s, row);
+      AddSlopes(x, z + 1 < s ? x + plane : nullptr, z > 0 ? x - plane : nullptr, s, gain, row);
+      AddSlopes(x, y + 1 < s ? x + s : nullptr, y > 0 ? x - s : nullptr, s, gain, row);
+      AddSlopes(x, x + 1, nullptr, s - 1, gain, row);
+      AddSlopes(x + 1, nullptr, x, s - 1, gain, row + 1);
     }
   }
+  FoldNodes(sharp.data(), s, 1, result);
 }
 
 }  // namespace antigrasp

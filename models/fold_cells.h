@@ -16,4 +16,8 @@ void UnfoldCells(const float* cells, int s, int c, float* grid);  // drops them
 void BlurCells(const float* cells, int s, float* result);
 void ClearRing(int s, float* cells);  // zeroes the ring, c = 1
 
+// cells, c = 1: x - gain * Laplacian(x) of the s^3 nodes, a grid that ends (no slope across its
+// border); the ring is zero. A symmetric matrix. May work in place.
+void EmphasizeNodes(const float* cells, int s, float gain, float* result);
+
 }  // namespace antigrasp

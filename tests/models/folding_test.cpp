@@ -6,6 +6,7 @@
 #include <torch/types.h>
 
 #include <array>
+#include <utility>
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/models/random_tensor.h"
@@ -29,11 +30,11 @@ torch::Tensor BlurKernel() {
 }
 
 TEST(Folding, UnfoldReturnsTheFoldedGridBitForBit) {
-  for (const std::int64_t side : {2, 4, 16, 32}) {
-    const torch::Tensor grid = Normal({2, 3, side, side, side}, 1);
+  for (const auto& [side, channels] : {std::pair{2, 3}, {4, 1}, {16, 8}, {4, 16}, {32, 3}}) {
+    const torch::Tensor grid = Normal({2, channels, side, side, side}, 1);
     const torch::Tensor folded = Fold(grid);
-    EXPECT_EQ(folded.sizes(),
-              (std::vector<std::int64_t>{2, 24, side / 2 + 1, side / 2 + 1, side / 2 + 1}));
+    const std::int64_t h = side / 2 + 1;
+    EXPECT_EQ(folded.sizes(), (std::vector<std::int64_t>{2, 8 * channels, h, h, h}));
     EXPECT_TRUE(torch::equal(Unfold(folded), grid));
     EXPECT_DOUBLE_EQ(folded.to(torch::kDouble).abs().sum().item<double>(),
                      grid.to(torch::kDouble).abs().sum().item<double>());  // the ring is zero
@@ -171,6 +172,19 @@ TEST(Folding, EmphasizeEdgesSubtractsTheLaplacianOfAGridThatEnds) {
   EXPECT_TRUE(torch::equal(EmphasizeEdges(Fold(grid), 0.0), Fold(grid)));
   const torch::Tensor constant = Fold(torch::full({1, 1, 32, 32, 32}, 0.5));
   EXPECT_TRUE(torch::equal(EmphasizeEdges(constant, 3.0), constant));
+}
+
+TEST(Folding, EmphasizeEdgesHasTheBitsOfItsFormulaAxisByAxis) {
+  for (const std::int64_t side : {2, 4, 32}) {
+    const torch::Tensor grid = Normal({3, 1, side, side, side}, 11);
+    torch::Tensor expected = grid.clone();
+    for (std::int64_t axis = 2; axis < 5; ++axis) {
+      const torch::Tensor step = 1.3 * (grid.slice(axis, 1, side) - grid.slice(axis, 0, side - 1));
+      expected.slice(axis, 0, side - 1).sub_(step);
+      expected.slice(axis, 1, side).add_(step);
+    }
+    EXPECT_TRUE(torch::equal(EmphasizeEdges(Fold(grid), 1.3), Fold(expected))) << side;
+  }
 }
 
 TEST(Folding, EmphasizeEdgesIsItsOwnTranspose) {
