@@ -14,9 +14,9 @@
 namespace antigrasp {
 namespace {
 
-const std::vector<std::string> kNames = {"bottles-adversarial",   "bottles-prior",
-                                         "cylinders-adversarial", "cylinders-prior",
-                                         "prisms-adversarial",    "prisms-prior"};
+const std::vector<std::string> kNames = {
+    "bottles-adversarial", "bottles-prior",      "cylinders-adversarial", "cylinders-prior",
+    "cylinders-solids",    "prisms-adversarial", "prisms-prior",          "prisms-solids"};
 
 TEST(Pretrained, NamesAreThoseOfTheFilesInOrder) { EXPECT_EQ(PretrainedNames(), kNames); }
 
@@ -28,7 +28,8 @@ TEST(Pretrained, EachNameIsItsOwnFileOfHalfPrecisionNetworks) {
     const Checkpoint checkpoint = ReadCheckpoint(file);
     const std::string shapes = name.substr(0, name.find('-'));
     EXPECT_NE(checkpoint.config.find(shapes), std::string::npos) << name;
-    const torch::Tensor* const weight = FindTensor(checkpoint.networks, "average/last_weight");
+    const std::string last = name.ends_with("solids") ? "layer4/weight" : "last_weight";
+    const torch::Tensor* const weight = FindTensor(checkpoint.networks, "average/" + last);
     const torch::Tensor* const progress = FindTensor(checkpoint.networks, "progress");
     ASSERT_TRUE(weight != nullptr && progress != nullptr) << name;
     EXPECT_EQ(weight->scalar_type(), torch::kHalf) << name;
