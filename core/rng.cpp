@@ -1,9 +1,11 @@
 #include "antigrasp/core/rng.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "antigrasp/core/check.h"
+#include "antigrasp/core/normal_pairs.h"
 
 namespace antigrasp {
 namespace {
@@ -77,6 +79,23 @@ double RngStream::Normal() {
   normal_ = radius * std::sin(angle);
   has_normal_ = true;
   return radius * std::cos(angle);
+}
+
+void RngStream::Normals(std::span<double> out) {
+  std::size_t done = 0;
+  if (has_normal_ && !out.empty()) out[done++] = Normal();
+  while (used_ == 4 && out.size() - done >= 2) {
+    constexpr std::size_t kPairs = 64;
+    const std::size_t pairs = std::min(kPairs, (out.size() - done) / 2);
+    double uniform[2 * kPairs];
+    PhiloxUniforms(counter_, key_, static_cast<int>(pairs), uniform);
+    BoxMuller(uniform, static_cast<int>(pairs), &out[done]);
+    const std::uint64_t next = (counter_[0] | static_cast<std::uint64_t>(counter_[1]) << 32) + pairs;
+    counter_[0] = static_cast<std::uint32_t>(next);
+    counter_[1] = static_cast<std::uint32_t>(next >> 32);
+    done += 2 * pairs;
+  }
+  while (done < out.size()) out[done++] = Normal();
 }
 
 std::uint64_t RngStream::Below(std::uint64_t n) {

@@ -2,8 +2,13 @@
 
 #include <embree3/rtcore.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <mutex>
 #include <vector>
 
 #include "antigrasp/core/error.h"
@@ -15,79 +20,202 @@ using Eigen::Vector3d;
 
 // At a more grazing angle the plane says less about the distance than the float hit does.
 constexpr double kGrazing = 1e-6;
+// Without Embree no face is looked at that the ray meets at a more grazing angle.
+constexpr double kSteep = 1e-3;
+// Sixteen roundings to float.
+constexpr double kFloatRounding = 1e-6;
+constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+constexpr std::size_t kMostMet = 32;
 
 struct Face {
-  std::size_t index;
-  Vector3d normal;
-  double offset;  // normal . any vertex, about the scene's centre
+  Vector3d normal;      // zero without area
+  double offset;        // normal . any vertex, about the scene's centre
+  float slimness;       // longest edge over the height above it, or less
 };
 
-std::vector<Face> FacesWithArea(const TriangleMesh& mesh, const Vector3d& center) {
-  std::vector<Face> faces;
-  faces.reserve(mesh.faces.size());
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    const Vector3d cross = FaceCross(mesh, i);
-    const double norm = cross.norm();
-    if (!(norm > 0.0)) continue;
-    const Vector3d normal = cross / norm;
-    const Vector3d corner = mesh.vertices[static_cast<std::size_t>(mesh.faces[i][0])] - center;
-    faces.push_back({i, normal, normal.dot(corner)});
-  }
-  return faces;
+Face FaceOf(const TriangleMesh& mesh, std::size_t i, const Vector3d& center) {
+  const auto corner = [&](std::size_t k) -> const Vector3d& {
+    return mesh.vertices[static_cast<std::size_t>(mesh.faces[i][k])];
+  };
+  const Vector3d cross = FaceCross(mesh, i);
+  const double norm = cross.norm();
+  if (!(norm > 0.0)) return {Vector3d::Zero(), 0.0, 0.0f};
+  const Vector3d normal = cross / norm;
+  const double longest2 =
+      std::max({(corner(1) - corner(0)).squaredNorm(), (corner(2) - corner(1)).squaredNorm(),
+                (corner(0) - corner(2)).squaredNorm()});
+  return {normal, normal.dot(corner(0) - center), static_cast<float>(longest2 / norm)};
 }
+
+// Behind that there are no faces.
+double LengthWithin(const Ray& ray, const FaceBlocks& blocks) {
+  return std::min(ray.length, 2.0 * ((ray.origin - blocks.center()).lpNorm<1>() + blocks.radius()));
+}
+
+// The box with an axis along the first of the rays that holds all of them, cut off behind the mesh.
+OrientedBox BoxAround(std::span<const Ray> rays, const FaceBlocks& blocks) {
+  OrientedBox box;
+  box.axes.col(0) = rays.front().direction;
+  box.axes.col(1) = rays.front().direction.unitOrthogonal();
+  box.axes.col(2) = box.axes.col(0).cross(box.axes.col(1));
+  Vector3d low = Vector3d::Constant(kNoEnd), high = -low;
+  for (const Ray& ray : rays) {
+    const Vector3d local = ray.origin - blocks.center();
+    const double length = LengthWithin(ray, blocks);
+    for (const double at : {0.0, length}) {
+      const Vector3d end = box.axes.transpose() * (local + at * ray.direction);
+      low = low.cwiseMin(end);
+      high = high.cwiseMax(end);
+    }
+  }
+  box.center = blocks.center() + box.axes * (0.5 * (low + high));
+  box.half = 0.5 * (high - low);
+  return box;
+}
+
+// The first face; `open`: float arithmetic may have it otherwise.
+struct FirstFace {
+  std::optional<std::size_t> face;
+  bool open = false;
+};
+
+class Device {
+ public:
+  Device() : device_(rtcNewDevice("threads=1,set_affinity=0")) {
+    if (device_ == nullptr) throw RuntimeFailure("Embree could not create a device");
+  }
+  ~Device() { rtcReleaseDevice(device_); }
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  RTCDevice get() const { return device_; }
+
+ private:
+  RTCDevice device_;
+};
 
 }  // namespace
 
 struct RayScene::Impl {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
   Vector3d center;
   std::vector<Face> faces;
+  std::vector<Eigen::Vector3f> vertices;  // about the centre
+  std::vector<std::array<std::int32_t, 3>> corners;
+  mutable std::once_flag tree_once, blocks_once;
+  mutable RTCDevice device = nullptr;
+  mutable RTCScene tree = nullptr;
+  mutable std::vector<std::uint32_t> with_area;  // the tree's faces
+  mutable std::optional<FaceBlocks> blocks;
 
-  explicit Impl(const TriangleMesh& mesh)
-      : center(Bounds(mesh).Center()), faces(FacesWithArea(mesh, center)) {
-    // One thread: objects are the unit of parallel work, and the tree must not depend on timing.
-    device = rtcNewDevice("threads=1,set_affinity=0");
-    if (device == nullptr) throw RuntimeFailure("Embree could not create a device");
-    scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // no ray slips through a shared edge
-    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
-    if (!faces.empty()) AddTriangles(mesh);
-    rtcCommitScene(scene);
+  explicit Impl(const TriangleMesh& mesh) : center(Bounds(mesh).Center()), corners(mesh.faces) {
+    faces.reserve(mesh.faces.size());
+    for (std::size_t i = 0; i < mesh.faces.size(); ++i) faces.push_back(FaceOf(mesh, i, center));
+    vertices.reserve(mesh.vertices.size() + 1);  // Embree reads four bytes beyond the last one
+    for (const Vector3d& vertex : mesh.vertices) {
+      vertices.push_back((vertex - center).cast<float>());
+    }
   }
-
   ~Impl() {
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
+    if (tree != nullptr) rtcReleaseScene(tree);
+    if (device != nullptr) rtcReleaseDevice(device);
   }
-
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  void AddTriangles(const TriangleMesh& mesh) {
+  RTCScene Tree() const {
+    std::call_once(tree_once, [this] { BuildTree(); });
+    return tree;
+  }
+  const FaceBlocks& Blocks() const {
+    std::call_once(blocks_once, [this] { blocks.emplace(vertices, corners, center); });
+    return *blocks;
+  }
+
+  void BuildTree() const {
+    // Devices are costly to make and each thread keeps one: objects are the unit of parallel work,
+    // and the tree must not depend on timing.
+    thread_local const Device of_thread;
+    device = of_thread.get();
+    rtcRetainDevice(device);
+    tree = rtcNewScene(device);
+    rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);  // no ray slips through a shared edge
+    rtcSetSceneBuildQuality(tree, RTC_BUILD_QUALITY_MEDIUM);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (!faces[i].normal.isZero(0.0)) with_area.push_back(static_cast<std::uint32_t>(i));
+    }
+    if (!with_area.empty()) AddTriangles();
+    rtcCommitScene(tree);
+  }
+
+  void AddTriangles() const {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                3 * sizeof(float), mesh.vertices.size()));
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               vertices.data(), 0, 3 * sizeof(float), vertices.size());
     auto* indices = static_cast<std::uint32_t*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), faces.size()));
-    if (vertices == nullptr || indices == nullptr) {
+                                3 * sizeof(std::uint32_t), with_area.size()));
+    if (indices == nullptr) {
       rtcReleaseGeometry(geometry);
       throw RuntimeFailure("Embree could not allocate its buffers");
     }
-    for (const Vector3d& vertex : mesh.vertices) {
-      const Eigen::Vector3f v = (vertex - center).cast<float>();
-      for (int k = 0; k < 3; ++k) *vertices++ = v[k];
-    }
-    for (const Face& face : faces) {
-      for (const std::int32_t v : mesh.faces[face.index]) {
-        *indices++ = static_cast<std::uint32_t>(v);
-      }
+    for (const std::uint32_t face : with_area) {
+      for (const std::int32_t v : corners[face]) *indices++ = static_cast<std::uint32_t>(v);
     }
     rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
+    rtcAttachGeometry(tree, geometry);
     rtcReleaseGeometry(geometry);
+  }
+
+  // The first of the faces that the ray's line meets. Embree compares distances in float, and planes
+  // of slim faces are known the less: what lies within this rounding of another face, or of an end
+  // of the ray, is open.
+  FirstFace FirstOf(const Ray& ray, const Vector3d& local,
+                    std::span<const std::uint32_t> slots) const {
+    struct Met {
+      std::size_t face;
+      double at, slack;
+    };
+    std::array<Met, kMostMet> met;
+    std::size_t count = 0;
+    const double size = blocks->radius() + local.lpNorm<1>();
+    double latest = kNoEnd;  // that the first one is met
+    for (const std::uint32_t slot : slots) {
+      const std::size_t index = blocks->FaceOf(slot);
+      const Face& face = faces[index];
+      if (face.normal.isZero(0.0)) continue;
+      const double slope = face.normal.dot(ray.direction);
+      if (std::abs(slope) < kSteep) return {std::nullopt, true};
+      const double per_slope = 1.0 / slope;
+      const double at = (face.offset - face.normal.dot(local)) * per_slope;
+      const double slack = kFloatRounding * (size + std::abs(at)) * (1.0 + face.slimness) *
+                           std::abs(per_slope);
+      if (at < -slack || at > ray.length + slack) continue;
+      met[count++] = {index, at, slack};
+      if (at > slack && at < ray.length - slack) latest = std::min(latest, at + slack);
+    }
+    FirstFace first;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (met[i].at - met[i].slack > latest) continue;
+      const bool within = met[i].at > met[i].slack && met[i].at < ray.length - met[i].slack;
+      if (first.face || !within) return {std::nullopt, true};
+      first.face = met[i].face;
+    }
+    return first;
+  }
+
+  // Where the ray meets a face; `far` in place of a distance that its plane does not give.
+  RayHit HitOf(const Vector3d& origin, const Vector3d& direction, std::size_t index,
+               double far) const {
+    const Face& face = faces[index];
+    const double slope = face.normal.dot(direction);
+    RayHit hit;
+    hit.distance = std::abs(slope) > kGrazing
+                       ? (face.offset - face.normal.dot(origin - center)) / slope
+                       : far;
+    hit.face = index;
+    hit.point = origin + hit.distance * direction;
+    hit.normal = face.normal;
+    hit.front = slope < 0.0;
+    return hit;
   }
 };
 
@@ -95,6 +223,8 @@ RayScene::RayScene(const TriangleMesh& mesh) : impl_(std::make_unique<const Impl
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+const FaceBlocks& RayScene::Blocks() const { return impl_->Blocks(); }
 
 std::optional<RayHit> RayScene::Closest(const Vector3d& origin, const Vector3d& direction,
                                         double max_distance) const {
@@ -116,19 +246,32 @@ std::optional<RayHit> RayScene::Closest(const Vector3d& origin, const Vector3d& 
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcIntersect1(impl_->scene, &context, &query);
+  rtcIntersect1(impl_->Tree(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return impl_->HitOf(origin, direction, impl_->with_area[query.hit.primID],
+                      static_cast<double>(query.ray.tfar));
+}
 
-  const Face& face = impl_->faces[query.hit.primID];
-  const double slope = face.normal.dot(direction);
-  RayHit hit;
-  hit.distance = std::abs(slope) > kGrazing ? (face.offset - face.normal.dot(local)) / slope
-                                            : static_cast<double>(query.ray.tfar);
-  hit.face = face.index;
-  hit.point = origin + hit.distance * direction;
-  hit.normal = face.normal;
-  hit.front = slope < 0.0;
-  return hit;
+void RayScene::Near(std::span<const Ray> rays, NearFaces* near) const {
+  const FaceBlocks& blocks = impl_->Blocks();
+  if (rays.empty() || !blocks.CanCast()) return;
+  if (rays.size() > 1) return blocks.NearBox(BoxAround(rays, blocks), near);
+  const Vector3d local = rays.front().origin - impl_->center;
+  blocks.NearLine(local, rays.front().direction, LengthWithin(rays.front(), blocks), near);
+}
+
+std::optional<RayHit> RayScene::Closest(const Ray& ray, const NearFaces& near) const {
+  const FaceBlocks& blocks = impl_->Blocks();
+  const Vector3d local = ray.origin - impl_->center;
+  std::array<std::uint32_t, kMostMet> slots;
+  int count = -1;
+  if (blocks.CanCast()) {
+    count = blocks.Met(local, ray.direction, LengthWithin(ray, blocks), near, slots);
+  }
+  const FirstFace first = impl_->FirstOf(ray, local, {slots.data(), slots.data() + std::max(count, 0)});
+  if (count < 0 || first.open) return Closest(ray.origin, ray.direction, ray.length);
+  if (!first.face) return std::nullopt;
+  return impl_->HitOf(ray.origin, ray.direction, *first.face, ray.length);
 }
 
 }  // namespace antigrasp

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 
+#include "antigrasp/mesh/face_blocks.h"
 #include "antigrasp/mesh/triangle_mesh.h"
 
 namespace antigrasp {
@@ -17,10 +19,19 @@ struct RayHit {
   bool front = true;                                  // met from the side the normal points to
 };
 
-// A static mesh prepared for closest-hit queries (Embree 3). The tree works in float about the
-// mesh's centre and picks the face; distance and point are then computed in double from that face's
-// plane. Faces without area are left out. Queries are const and thread-safe; one build is 0.5 ms
-// for 2,500 faces, one query about 0.1 us.
+// What a ray runs along: at most to `length`, which may be infinite.
+struct Ray {
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;  // unit
+  double length = 0.0;
+};
+
+// A static mesh prepared for closest-hit queries. The first face is picked in float about the mesh's
+// centre, by Embree's robust test; distance and point are then computed in double from that face's
+// plane. Faces without area are left out. Queries are const and thread-safe.
+//
+// Embree's tree is built by the first query that wants it (0.6 ms for 2,500 faces); a query takes
+// about 0.1 us. A few rays beside each other do without: see Near.
 class RayScene {
  public:
   explicit RayScene(const TriangleMesh& mesh);  // vertices finite, indices in range
@@ -31,6 +42,14 @@ class RayScene {
   // The first face met from `origin` along the unit `direction` within `max_distance`.
   std::optional<RayHit> Closest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                 double max_distance) const;
+
+  // The faces that rays can meet which reach no further to any side than `rays` do.
+  void Near(std::span<const Ray> rays, NearFaces* near) const;
+  // The same answer, bit for bit, for a ray among them: 0.03 us where a grasp's draws are together.
+  // Where float arithmetic leaves open which face is first, Embree is asked.
+  std::optional<RayHit> Closest(const Ray& ray, const NearFaces& near) const;
+
+  const FaceBlocks& Blocks() const;  // of the whole mesh
 
  private:
   struct Impl;

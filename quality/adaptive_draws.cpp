@@ -14,12 +14,16 @@ constexpr int kFewestDraws = 5;
 
 void DrawUntil(const GraspModel& model, const MetricOptions& options, int draws,
                NoisyGrasp* noisy) {
-  for (; noisy->draws < draws; ++noisy->draws) {
-    const NoiseDraw noise = DrawNoise(options, &noisy->noise);
-    const double quality = model.ExecutedQuality(noisy->grasp, noise);
+  if (noisy->draws >= draws) return;
+  std::vector<NoiseDraw> noise(static_cast<std::size_t>(draws - noisy->draws));
+  std::vector<double> qualities(noise.size());
+  DrawNoises(options, &noisy->noise, noise);
+  model.ExecutedQualities(noisy->grasp, noise, qualities);
+  for (const double quality : qualities) {
     noisy->sum += quality;
     noisy->sum_of_squares += quality * quality;
   }
+  noisy->draws = draws;
 }
 
 double Variance(const NoisyGrasp& noisy) {

@@ -39,15 +39,19 @@ std::optional<Grasp> AntipodalSampler::Try(RngStream* rng, GraspRejection* why) 
   };
   const SurfaceSampler::Sample first = surface_.Draw(rng);
   const Vector3d axis = DrawInCone(-first.normal, std::atan(friction_), rng);
-  const auto opposite =
-      scene_.Closest(first.point + jaw_opening_ * axis, -axis, jaw_opening_ * (1.0 - kSamePoint));
+  const Ray back{first.point + jaw_opening_ * axis, -axis, jaw_opening_ * (1.0 - kSamePoint)};
+  // What both jaws can run along when the contacts are on this line within the opening.
+  const Ray line{back.origin, -axis, 1.5 * jaw_opening_};
+  thread_local NearFaces near;
+  scene_.Near({&line, 1}, &near);
+  const auto opposite = scene_.Closest(back, near);
   if (!opposite || !opposite->front) return reject(GraspRejection::kNoOpposite);
 
   Grasp grasp;
   grasp.axis = axis;
   grasp.width = (opposite->point - first.point).norm();
   grasp.center = 0.5 * (first.point + opposite->point);
-  const auto contacts = CloseJaws(scene_, grasp.center, axis, jaw_opening_, friction_);
+  const auto contacts = CloseJaws(scene_, near, grasp.center, axis, jaw_opening_, friction_);
   if (!contacts) {
     return reject(Slips(-opposite->normal, -axis, friction_) ? GraspRejection::kSlips
                                                              : GraspRejection::kJawBlocked);

@@ -2,17 +2,30 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace antigrasp {
 namespace {
 
 using Eigen::Vector3d;
 
-Vector3d NormalVector(double std, RngStream* rng) {
-  Vector3d v;
-  for (int k = 0; k < 3; ++k) v[k] = std * rng->Normal();
-  return v;
+constexpr std::size_t kNormals = 13;
+
+NoiseDraw NoiseOf(const MetricOptions& options, const double* normals) {
+  const auto next = [&normals](double std) {
+    const Vector3d v(std * normals[0], std * normals[1], std * normals[2]);
+    normals += 3;
+    return v;
+  };
+  NoiseDraw draw;
+  draw.object_translation = next(options.object_translation_std);
+  draw.object_rotation = next(options.object_rotation_std);
+  draw.grasp_translation = next(options.grasp_translation_std);
+  draw.grasp_rotation = next(options.grasp_rotation_std);
+  draw.friction = std::max(0.0, options.friction + options.friction_std * *normals);
+  return draw;
 }
 
 // `point` turned by the rotation vector `turn` (Rodrigues).
@@ -28,13 +41,17 @@ Vector3d Turned(const Vector3d& point, const Vector3d& turn) {
 }  // namespace
 
 NoiseDraw DrawNoise(const MetricOptions& options, RngStream* rng) {
-  NoiseDraw draw;
-  draw.object_translation = NormalVector(options.object_translation_std, rng);
-  draw.object_rotation = NormalVector(options.object_rotation_std, rng);
-  draw.grasp_translation = NormalVector(options.grasp_translation_std, rng);
-  draw.grasp_rotation = NormalVector(options.grasp_rotation_std, rng);
-  draw.friction = std::max(0.0, options.friction + options.friction_std * rng->Normal());
-  return draw;
+  std::array<double, kNormals> normals;
+  for (double& normal : normals) normal = rng->Normal();
+  return NoiseOf(options, normals.data());
+}
+
+void DrawNoises(const MetricOptions& options, RngStream* rng, std::span<NoiseDraw> draws) {
+  std::vector<double> normals(kNormals * draws.size());
+  rng->Normals(normals);
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    draws[i] = NoiseOf(options, &normals[kNormals * i]);
+  }
 }
 
 JawPose ExecutedPose(const Grasp& grasp, const Vector3d& com, const NoiseDraw& noise) {

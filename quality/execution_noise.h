@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <span>
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/quality/contact.h"
@@ -21,6 +22,8 @@ struct NoiseDraw {
 // Thirteen normal numbers in this order, whatever the standard deviations are, so that draws pair
 // up between objects and between noise levels.
 NoiseDraw DrawNoise(const MetricOptions& options, RngStream* rng);
+// As many calls of it, faster.
+void DrawNoises(const MetricOptions& options, RngStream* rng, std::span<NoiseDraw> draws);
 
 // Where the jaws really are, in the moved object's own frame.
 struct JawPose {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,13 @@ class GraspModel {
   // The quality of the grasp when it is executed under one draw of the noise, 0 = it fails. Called
   // some thousand times per object.
   virtual double ExecutedQuality(const Grasp& grasp, const NoiseDraw& noise) const = 0;
+
+  // The same under many draws, for models that are faster with all of them at hand: qualities[i] is
+  // that of draws[i], bit for bit.
+  virtual void ExecutedQualities(const Grasp& grasp, std::span<const NoiseDraw> draws,
+                                 std::span<double> qualities) const {
+    for (std::size_t i = 0; i < draws.size(); ++i) qualities[i] = ExecutedQuality(grasp, draws[i]);
+  }
 };
 
 // Makes the model of one object, which must outlive it; nullptr when there is nothing to grasp on

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <span>
 
 #include "antigrasp/mesh/ray_scene.h"
 #include "antigrasp/quality/contact.h"
@@ -17,5 +18,20 @@ std::optional<std::array<Contact, 2>> CloseJaws(const RayScene& scene,
                                                 const Eigen::Vector3d& center,
                                                 const Eigen::Vector3d& axis, double opening,
                                                 double friction);
+// The same of jaws whose rays are among those that `near` was made for.
+std::optional<std::array<Contact, 2>> CloseJaws(const RayScene& scene, const NearFaces& near,
+                                                const Eigen::Vector3d& center,
+                                                const Eigen::Vector3d& axis, double opening,
+                                                double friction);
+
+// Jaws of one opening that close beside each other, as a grasp's draws do.
+struct JawClosing {
+  Eigen::Vector3d center;
+  Eigen::Vector3d axis;  // unit
+  double friction;
+};
+// contacts[i] of closings[i], bit for bit as above, in a fifth of the time for 25.
+void CloseJawsTogether(const RayScene& scene, std::span<const JawClosing> closings, double opening,
+                       std::span<std::optional<std::array<Contact, 2>>> contacts);
 
 }  // namespace antigrasp

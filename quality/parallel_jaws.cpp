@@ -56,6 +56,12 @@ class Jaws final : public GraspModel {
     return antigrasp::ExecutedQuality(object_.scene, object_.com, grasp, options_, noise);
   }
 
+  void ExecutedQualities(const Grasp& grasp, std::span<const NoiseDraw> draws,
+                         std::span<double> qualities) const override {
+    if (tips_) return GraspModel::ExecutedQualities(grasp, draws, qualities);
+    antigrasp::ExecutedQualities(object_.scene, object_.com, grasp, options_, draws, qualities);
+  }
+
  private:
   GraspObject object_;
   MetricOptions options_;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
-#include <unsupported/Eigen/BVH>
 #include <vector>
 
 #include "antigrasp/contact/box_triangle.h"
@@ -13,22 +11,14 @@
 namespace antigrasp {
 namespace {
 
-using Eigen::AlignedBox3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Triangle = std::array<Vector3d, 3>;
-using Tree = Eigen::KdBVH<double, 3, int>;  // of indices of faces
 
 // Shorter than this (metres or a share of a unit vector), a direction is rounding.
 constexpr double kNoDirection = 1e-6;
 
-constexpr int kNone = -1;
-
-struct OrientedBox {
-  Matrix3d object_from_box;
-  Vector3d center;  // object frame
-  Vector3d half;    // box frame
-};
+constexpr std::int64_t kNone = -1;
 
 Triangle Corners(const TriangleMesh& mesh, std::size_t face) {
   const auto& [a, b, c] = mesh.faces[face];
@@ -36,52 +26,13 @@ Triangle Corners(const TriangleMesh& mesh, std::size_t face) {
           mesh.vertices[static_cast<std::size_t>(c)]};
 }
 
-bool Meets(const OrientedBox& box, const TriangleMesh& mesh, int face) {
-  const Triangle triangle = Corners(mesh, static_cast<std::size_t>(face));
-  const auto box_from_object = box.object_from_box.transpose();
+bool Meets(const OrientedBox& box, const TriangleMesh& mesh, std::size_t face) {
+  const Triangle triangle = Corners(mesh, face);
+  const auto box_from_object = box.axes.transpose();
   return BoxMeetsTriangle(box.half, {box_from_object * (triangle[0] - box.center),
                                      box_from_object * (triangle[1] - box.center),
                                      box_from_object * (triangle[2] - box.center)});
 }
-
-// One query of the tree, as Eigen's BVIntersect wants it.
-class BoxQuery {
- public:
-  BoxQuery(const OrientedBox& box, const TriangleMesh& mesh)
-      : box_(box), mesh_(mesh), abs_axes_(box.object_from_box.cwiseAbs()) {
-    const Vector3d extent = abs_axes_ * box.half;
-    min_ = box.center - extent;
-    max_ = box.center + extent;
-  }
-
-  // Six of the fifteen separating axes: cheap, and lets through little.
-  bool intersectVolume(const AlignedBox3d& volume) const {
-    if ((volume.min().array() > max_.array()).any() || (volume.max().array() < min_.array()).any())
-      return false;
-    const Vector3d center = 0.5 * (volume.min() + volume.max()) - box_.center;
-    const Vector3d half = 0.5 * (volume.max() - volume.min());
-    for (int k = 0; k < 3; ++k) {
-      if (std::abs(box_.object_from_box.col(k).dot(center)) >
-          box_.half[k] + abs_axes_.col(k).dot(half))
-        return false;
-    }
-    return true;
-  }
-
-  bool intersectObject(int face) {
-    if (Meets(box_, mesh_, face)) hit_ = face;
-    return hit_ != kNone;
-  }
-
-  int hit() const { return hit_; }
-
- private:
-  const OrientedBox& box_;
-  const TriangleMesh& mesh_;
-  Matrix3d abs_axes_;
-  Vector3d min_, max_;
-  int hit_ = kNone;
-};
 
 Vector3d Across(const Vector3d& v, const Vector3d& axis) { return v - v.dot(axis) * axis; }
 
@@ -103,46 +54,40 @@ struct GripperCollision::Impl {
   const RayScene& scene;
   GripperModel model;
   Vector3d com;
-  Tree tree;
 
   Impl(const TriangleMesh& object, const RayScene& ray_scene, const GripperModel& gripper)
-      : mesh(object), scene(ray_scene), model(gripper), com(CenterOfMass(object)) {
-    std::vector<int> indices(mesh.faces.size());
-    std::iota(indices.begin(), indices.end(), 0);
-    std::vector<AlignedBox3d> boxes;
-    boxes.reserve(mesh.faces.size());
-    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-      const Triangle corners = Corners(mesh, i);
-      boxes.emplace_back(corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]),
-                         corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]));
-    }
-    tree.init(indices.begin(), indices.end(), boxes.begin(), boxes.end());
-  }
+      : mesh(object), scene(ray_scene), model(gripper), com(CenterOfMass(object)) {}
 
   // A face the box meets, or kNone. `guess` is tried first: what blocks one angle often blocks
   // the next.
-  int Hit(const OrientedBox& box, int guess) const {
-    if (guess != kNone && Meets(box, mesh, guess)) return guess;
-    BoxQuery query(box, mesh);
-    Eigen::BVIntersect(tree, query);
-    return query.hit();
+  std::int64_t Hit(const OrientedBox& box, std::int64_t guess,
+                   std::vector<std::uint32_t>* blocks) const {
+    if (guess != kNone && Meets(box, mesh, static_cast<std::size_t>(guess))) return guess;
+    blocks->clear();
+    scene.Blocks().Near(box, blocks);
+    return scene.Blocks().FindIn(
+        box, *blocks, [&](std::size_t face) { return Meets(box, mesh, face); });
   }
 
   bool Inside(const Vector3d& point, const Vector3d& direction) const {
-    const auto hit = scene.Closest(point, direction, std::numeric_limits<double>::infinity());
+    const Ray ray{point, direction, std::numeric_limits<double>::infinity()};
+    thread_local NearFaces near;
+    scene.Near({&ray, 1}, &near);
+    const auto hit = scene.Closest(ray, near);
     return hit && !hit->front;
   }
 
   // `blocking` carries the face that each box met last from one angle to the next.
   bool IsFree(const Grasp& grasp, const std::array<BoundingBox, 3>& boxes, const Vector3d& approach,
-              std::array<int, 3>* blocking) const {
+              std::array<std::int64_t, 3>* blocking) const {
     Matrix3d object_from_gripper;
     object_from_gripper << approach, grasp.axis, approach.cross(grasp.axis);
     std::array<Vector3d, 3> centers;
+    std::vector<std::uint32_t> near;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       centers[i] = grasp.center + object_from_gripper * boxes[i].Center();
-      const int hit =
-          Hit({object_from_gripper, centers[i], 0.5 * boxes[i].Extent()}, (*blocking)[i]);
+      const std::int64_t hit =
+          Hit({object_from_gripper, centers[i], 0.5 * boxes[i].Extent()}, (*blocking)[i], &near);
       if (hit != kNone) {
         (*blocking)[i] = hit;
         return false;
@@ -167,7 +112,7 @@ std::optional<Vector3d> GripperCollision::FreeApproach(const Grasp& grasp, doubl
   const auto boxes = GripperBoxes(impl_->model, opening, impl_->model.approach_distance);
   const Vector3d ahead = FirstApproach(grasp, impl_->com);
   const Vector3d aside = ahead.cross(grasp.axis);
-  std::array<int, 3> blocking{kNone, kNone, kNone};
+  std::array<std::int64_t, 3> blocking{kNone, kNone, kNone};
   for (int i = 0; i < impl_->model.approach_angles; ++i) {
     const int step = i % 2 == 1 ? (i + 1) / 2 : -i / 2;
     const double angle = 2.0 * std::numbers::pi * step / impl_->model.approach_angles;
@@ -179,7 +124,7 @@ std::optional<Vector3d> GripperCollision::FreeApproach(const Grasp& grasp, doubl
 
 bool GripperCollision::IsFree(const Grasp& grasp, double opening, const Vector3d& approach) const {
   const auto boxes = GripperBoxes(impl_->model, opening, impl_->model.approach_distance);
-  std::array<int, 3> blocking{kNone, kNone, kNone};
+  std::array<std::int64_t, 3> blocking{kNone, kNone, kNone};
   return impl_->IsFree(grasp, boxes, approach, &blocking);
 }
 

@@ -20,11 +20,10 @@ namespace antigrasp {
 // The answer moves with the object: angle 0 comes from the side away from the centre of mass, which
 // is free most often; the others follow in the order 1, -1, 2, -2, ...
 //
-// A tree of Eigen's (KdBVH) over the faces and an exact box-triangle test: 0.6 ms to build and 0.3
-// ms for 100 grasps on 3,200 faces, one thread. The same 870 box queries per object (20 intersected
-// cylinders, 120 grasps each), build + queries in ms:
-//   this 0.6 + 0.8, CGAL's AABB tree with the boxes' faces 1.0 + 6.8, no tree 27,
-//   FCL 0.7's OBB tree 11 + 2.7, its OBBRSS tree 15 + 6.2
+// The scene's blocks of faces and an exact box-triangle test. The same 870 box queries per object (20
+// intersected cylinders, 120 grasps each), build + queries in ms, before the blocks were there:
+//   a tree of Eigen's (KdBVH) 0.6 + 0.8, CGAL's AABB tree with the boxes' faces 1.0 + 6.8, no tree
+//   27, FCL 0.7's OBB tree 11 + 2.7, its OBBRSS tree 15 + 6.2
 class GripperCollision {
  public:
   // The mesh and its scene must outlive this. Vertices finite, indices in range, metres.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/mesh/ray_scene.h"
@@ -21,6 +22,11 @@ WrenchModel WrenchModelOf(const MetricOptions& options, double friction);
 // the pose of the gripper relative to the object matters.
 double ExecutedQuality(const RayScene& scene, const Eigen::Vector3d& com, const Grasp& grasp,
                        const MetricOptions& options, const NoiseDraw& noise);
+
+// The same of many draws, bit for bit, in a third of the time for 25.
+void ExecutedQualities(const RayScene& scene, const Eigen::Vector3d& com, const Grasp& grasp,
+                       const MetricOptions& options, std::span<const NoiseDraw> draws,
+                       std::span<double> qualities);
 
 // Mean of ExecutedQuality over options.num_draws draws.
 double RobustQuality(const RayScene& scene, const Eigen::Vector3d& com, const Grasp& grasp,

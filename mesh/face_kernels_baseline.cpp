@@ -1,0 +1,2 @@
+#define FACE_KERNELS FaceKernelsBaseline
+#include "antigrasp/mesh/face_kernels.inc"
