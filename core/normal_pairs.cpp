@@ -28,7 +28,8 @@ AG_INLINE TwoPart SumOfLarger(double a, double b) {
 // Whether a library's function may return another number than `high`: the low part, which is right
 // to .01 of a last place, lies nearer to the half of it than the library's error is beyond .5.
 // glibc's errors are at most .519 (logarithm) and .55 (sine and cosine).
-constexpr double kLogStretch = 16.0 / 15.0, kTurnStretch = 8.0 / 7.0;  // .031 and .0625 before the half
+constexpr double kLogStretch = 16.0 / 15.0,
+                 kTurnStretch = 8.0 / 7.0;  // .031 and .0625 before the half
 AG_INLINE bool IsOpen(const TwoPart& x, double stretch) {
   return x.high + x.low * stretch != x.high;
 }
@@ -65,8 +66,16 @@ Tables MakeTables() {
     const long double angle = rest * (std::numbers::pi_v<long double> / 32);
     const long double s = std::sin(angle), c = std::cos(angle);
     const auto at = static_cast<std::size_t>(j);
-    const TwoPart sine = Split(quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : quarter == 3 ? -c : s);
-    const TwoPart cosine = Split(quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : quarter == 3 ? s : c);
+    const TwoPart sine = Split(quarter == 0   ? s
+                               : quarter == 1 ? c
+                               : quarter == 2 ? -s
+                               : quarter == 3 ? -c
+                                              : s);
+    const TwoPart cosine = Split(quarter == 0   ? c
+                                 : quarter == 1 ? -s
+                                 : quarter == 2 ? -c
+                                 : quarter == 3 ? s
+                                                : c);
     t.sine[at] = sine.high;
     t.sine_low[at] = sine.low;
     t.cosine[at] = cosine.high;
@@ -127,9 +136,9 @@ AG_INLINE SineCosine SinCos(const Tables& t, double angle) {
   const double cb = c * b, cb_low = __builtin_fma(c, b, -cb) + (c * b_low + c_low * b);
   const double sb = s * b, sb_low = __builtin_fma(s, b, -sb) + (s * b_low + s_low * b);
   const TwoPart sine = Sum(s, cb), cosine = Sum(c, -sb);
-  return {SumOfLarger(sine.high, (s * cosine_rest + c * sine_rest) + (sine.low + cb_low + s_low)),
-          SumOfLarger(cosine.high,
-                      (c * cosine_rest - s * sine_rest) + (cosine.low - sb_low + c_low))};
+  return {
+      SumOfLarger(sine.high, (s * cosine_rest + c * sine_rest) + (sine.low + cb_low + s_low)),
+      SumOfLarger(cosine.high, (c * cosine_rest - s * sine_rest) + (cosine.low - sb_low + c_low))};
 }
 
 // What the library is asked for as RngStream::Normal asks it.
@@ -157,7 +166,8 @@ AG_INLINE void Chunk(const Tables& t, const double* uniform, int pairs, double* 
     cosine[i] = turned.cosine.high;
     open[i] = static_cast<std::uint64_t>(IsOpen(of_log, kLogStretch)) |
               static_cast<std::uint64_t>(IsOpen(turned.sine, kTurnStretch) |
-                                         IsOpen(turned.cosine, kTurnStretch)) << 1;
+                                         IsOpen(turned.cosine, kTurnStretch))
+                  << 1;
   }
   // Listed first: whether a number is open cannot be foretold, and a branch on it would cost as
   // much as the number.

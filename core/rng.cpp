@@ -90,7 +90,8 @@ void RngStream::Normals(std::span<double> out) {
     double uniform[2 * kPairs];
     PhiloxUniforms(counter_, key_, static_cast<int>(pairs), uniform);
     BoxMuller(uniform, static_cast<int>(pairs), &out[done]);
-    const std::uint64_t next = (counter_[0] | static_cast<std::uint64_t>(counter_[1]) << 32) + pairs;
+    const std::uint64_t next =
+        (counter_[0] | static_cast<std::uint64_t>(counter_[1]) << 32) + pairs;
     counter_[0] = static_cast<std::uint32_t>(next);
     counter_[1] = static_cast<std::uint32_t>(next >> 32);
     done += 2 * pairs;

@@ -29,7 +29,7 @@ class RngStream {
   double Normal();                          // mean 0, standard deviation 1 (Box-Muller)
   // As many calls of Normal: the same numbers, in a third of the time.
   void Normals(std::span<double> out);
-  std::uint64_t Below(std::uint64_t n);     // {0, ..., n-1} without bias; n > 0
+  std::uint64_t Below(std::uint64_t n);  // {0, ..., n-1} without bias; n > 0
 
  private:
   std::array<std::uint32_t, 2> key_;

@@ -52,9 +52,8 @@ void Sort(std::span<Middle> faces, Vector3f low, Vector3f high) {
     Eigen::Index axis;
     (high - low).maxCoeff(&axis);
     const auto cut = faces.begin() + static_cast<std::ptrdiff_t>(left);
-    std::nth_element(faces.begin(), cut, faces.end(), [axis](const Middle& x, const Middle& y) {
-      return x.at[axis] < y.at[axis];
-    });
+    std::nth_element(faces.begin(), cut, faces.end(),
+                     [axis](const Middle& x, const Middle& y) { return x.at[axis] < y.at[axis]; });
     Vector3f middle = high;
     middle[axis] = cut->at[axis];
     Sort(faces.first(left), low, middle);
@@ -218,10 +217,10 @@ bool FaceBlocks::CanCast() const {
 
 int FaceBlocks::Met(const Vector3d& origin, const Vector3d& direction, double length,
                     const NearFaces& near, std::span<std::uint32_t> slots) const {
-  return FaceKernelsHere().faces_met(InFloat(origin, direction, length),
-                             {near.boxes.data(), near.blocks.data(),
-                              static_cast<int>(near.boxes.size())},
-                             blocks_.data(), slots.data(), static_cast<int>(slots.size()));
+  return FaceKernelsHere().faces_met(
+      InFloat(origin, direction, length),
+      {near.boxes.data(), near.blocks.data(), static_cast<int>(near.boxes.size())}, blocks_.data(),
+      slots.data(), static_cast<int>(slots.size()));
 }
 
 unsigned FaceBlocks::FacesIn(std::uint32_t block, const BoxInFloat& box) const {

@@ -22,15 +22,15 @@ using Eigen::Vector3d;
 constexpr double kGrazing = 1e-6;
 // Without Embree no face is looked at that the ray meets at a more grazing angle.
 constexpr double kSteep = 1e-3;
-// Sixteen roundings to float.
-constexpr double kFloatRounding = 1e-6;
+// Four roundings to float.
+constexpr double kFloatRounding = 2.5e-7;
 constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostMet = 32;
 
 struct Face {
-  Vector3d normal;      // zero without area
-  double offset;        // normal . any vertex, about the scene's centre
-  float slimness;       // longest edge over the height above it, or less
+  Vector3d normal;  // zero without area
+  double offset;    // normal . any vertex, about the scene's centre
+  float slimness;   // longest edge over the height above it, or less
 };
 
 Face FaceOf(const TriangleMesh& mesh, std::size_t i, const Vector3d& center) {
@@ -165,9 +165,9 @@ struct RayScene::Impl {
     rtcReleaseGeometry(geometry);
   }
 
-  // The first of the faces that the ray's line meets. Embree compares distances in float, and planes
-  // of slim faces are known the less: what lies within this rounding of another face, or of an end
-  // of the ray, is open.
+  // The first of the faces that the ray's line meets. Embree compares distances in float, and
+  // planes of slim faces are known the less: what lies within this rounding of another face, or of
+  // an end of the ray, is open.
   FirstFace FirstOf(const Ray& ray, const Vector3d& local,
                     std::span<const std::uint32_t> slots) const {
     struct Met {
@@ -186,8 +186,8 @@ struct RayScene::Impl {
       if (std::abs(slope) < kSteep) return {std::nullopt, true};
       const double per_slope = 1.0 / slope;
       const double at = (face.offset - face.normal.dot(local)) * per_slope;
-      const double slack = kFloatRounding * (size + std::abs(at)) * (1.0 + face.slimness) *
-                           std::abs(per_slope);
+      const double slack =
+          kFloatRounding * (size + std::abs(at)) * (1.0 + face.slimness) * std::abs(per_slope);
       if (at < -slack || at > ray.length + slack) continue;
       met[count++] = {index, at, slack};
       if (at > slack && at < ray.length - slack) latest = std::min(latest, at + slack);
@@ -208,9 +208,8 @@ struct RayScene::Impl {
     const Face& face = faces[index];
     const double slope = face.normal.dot(direction);
     RayHit hit;
-    hit.distance = std::abs(slope) > kGrazing
-                       ? (face.offset - face.normal.dot(origin - center)) / slope
-                       : far;
+    hit.distance =
+        std::abs(slope) > kGrazing ? (face.offset - face.normal.dot(origin - center)) / slope : far;
     hit.face = index;
     hit.point = origin + hit.distance * direction;
     hit.normal = face.normal;
@@ -268,7 +267,8 @@ std::optional<RayHit> RayScene::Closest(const Ray& ray, const NearFaces& near) c
   if (blocks.CanCast()) {
     count = blocks.Met(local, ray.direction, LengthWithin(ray, blocks), near, slots);
   }
-  const FirstFace first = impl_->FirstOf(ray, local, {slots.data(), slots.data() + std::max(count, 0)});
+  const FirstFace first =
+      impl_->FirstOf(ray, local, {slots.data(), slots.data() + std::max(count, 0)});
   if (count < 0 || first.open) return Closest(ray.origin, ray.direction, ray.length);
   if (!first.face) return std::nullopt;
   return impl_->HitOf(ray.origin, ray.direction, *first.face, ray.length);

@@ -26,9 +26,9 @@ struct Ray {
   double length = 0.0;
 };
 
-// A static mesh prepared for closest-hit queries. The first face is picked in float about the mesh's
-// centre, by Embree's robust test; distance and point are then computed in double from that face's
-// plane. Faces without area are left out. Queries are const and thread-safe.
+// A static mesh prepared for closest-hit queries. The first face is picked in float about the
+// mesh's centre, by Embree's robust test; distance and point are then computed in double from that
+// face's plane. Faces without area are left out. Queries are const and thread-safe.
 //
 // Embree's tree is built by the first query that wants it (0.6 ms for 2,500 faces); a query takes
 // about 0.1 us. A few rays beside each other do without: see Near.

@@ -28,15 +28,24 @@ NoiseDraw NoiseOf(const MetricOptions& options, const double* normals) {
   return draw;
 }
 
-// `point` turned by the rotation vector `turn` (Rodrigues).
-Vector3d Turned(const Vector3d& point, const Vector3d& turn) {
-  const double angle = turn.norm();
-  if (!(angle > 0.0)) return point;
-  const Vector3d axis = turn / angle;
-  const double cosine = std::cos(angle);
-  return cosine * point + std::sin(angle) * axis.cross(point) +
-         (1.0 - cosine) * axis.dot(point) * axis;
-}
+// Turns points by a rotation vector (Rodrigues).
+class Turn {
+ public:
+  explicit Turn(const Vector3d& turn) : angle_(turn.norm()) {
+    if (!(angle_ > 0.0)) return;
+    axis_ = turn / angle_;
+    cosine_ = std::cos(angle_);
+    sine_ = std::sin(angle_);
+  }
+  Vector3d operator()(const Vector3d& point) const {
+    if (!(angle_ > 0.0)) return point;
+    return cosine_ * point + sine_ * axis_.cross(point) + (1.0 - cosine_) * axis_.dot(point) * axis_;
+  }
+
+ private:
+  double angle_, cosine_ = 1.0, sine_ = 0.0;
+  Vector3d axis_ = Vector3d::UnitX();
+};
 
 }  // namespace
 
@@ -56,10 +65,10 @@ void DrawNoises(const MetricOptions& options, RngStream* rng, std::span<NoiseDra
 
 JawPose ExecutedPose(const Grasp& grasp, const Vector3d& com, const NoiseDraw& noise) {
   const Vector3d center_in_world = grasp.center + noise.grasp_translation;
-  const Vector3d axis_in_world = Turned(grasp.axis, noise.grasp_rotation);
-  const Vector3d back = -noise.object_rotation;
-  return {Turned(center_in_world - com - noise.object_translation, back) + com,
-          Turned(axis_in_world, back).normalized()};
+  const Vector3d axis_in_world = Turn(noise.grasp_rotation)(grasp.axis);
+  const Turn back(-noise.object_rotation);
+  return {back(center_in_world - com - noise.object_translation) + com,
+          back(axis_in_world).normalized()};
 }
 
 Eigen::Isometry3d GripperFrame(const Grasp& grasp, const JawPose& jaws) {

@@ -65,8 +65,8 @@ struct GripperCollision::Impl {
     if (guess != kNone && Meets(box, mesh, static_cast<std::size_t>(guess))) return guess;
     blocks->clear();
     scene.Blocks().Near(box, blocks);
-    return scene.Blocks().FindIn(
-        box, *blocks, [&](std::size_t face) { return Meets(box, mesh, face); });
+    return scene.Blocks().FindIn(box, *blocks,
+                                 [&](std::size_t face) { return Meets(box, mesh, face); });
   }
 
   bool Inside(const Vector3d& point, const Vector3d& direction) const {

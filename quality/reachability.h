@@ -20,8 +20,8 @@ namespace antigrasp {
 // The answer moves with the object: angle 0 comes from the side away from the centre of mass, which
 // is free most often; the others follow in the order 1, -1, 2, -2, ...
 //
-// The scene's blocks of faces and an exact box-triangle test. The same 870 box queries per object (20
-// intersected cylinders, 120 grasps each), build + queries in ms, before the blocks were there:
+// The scene's blocks of faces and an exact box-triangle test. The same 870 box queries per object
+// (20 intersected cylinders, 120 grasps each), build + queries in ms, before the blocks were there:
 //   a tree of Eigen's (KdBVH) 0.6 + 0.8, CGAL's AABB tree with the boxes' faces 1.0 + 6.8, no tree
 //   27, FCL 0.7's OBB tree 11 + 2.7, its OBBRSS tree 15 + 6.2
 class GripperCollision {
