@@ -195,35 +195,34 @@ AG_INLINE void Chunk(const Tables& t, const double* uniform, int pairs, double* 
 
 AG_INLINE void Uniforms(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key,
                         int blocks, double* out) {
-  constexpr std::uint64_t kM0 = 0xD2511F53, kM1 = 0xCD9E8D57, kLow = 0xffffffff;
-  std::uint64_t c[4][kChunk];
-  const int padded = (blocks + 7) / 8 * 8;
+  constexpr std::uint64_t kM0 = 0xD2511F53, kM1 = 0xCD9E8D57;
+  std::uint32_t c[4][kChunk];
+  const int padded = (blocks + 15) / 16 * 16;  // whole vectors
   const std::uint64_t first = counter[0] | static_cast<std::uint64_t>(counter[1]) << 32;
   for (int i = 0; i < padded; ++i) {
     const std::uint64_t number = first + static_cast<std::uint64_t>(i);
-    c[0][i] = number & kLow;
-    c[1][i] = number >> 32;
+    c[0][i] = static_cast<std::uint32_t>(number);
+    c[1][i] = static_cast<std::uint32_t>(number >> 32);
     c[2][i] = counter[2];
     c[3][i] = counter[3];
   }
-  for (int i = 0; i < padded; ++i) {
-    std::uint64_t c0 = c[0][i], c1 = c[1][i], c2 = c[2][i], c3 = c[3][i];
-    std::uint64_t k0 = key[0], k1 = key[1];
-    for (int round = 0; round < 10; ++round) {
-      const std::uint64_t p0 = kM0 * (c0 & kLow), p1 = kM1 * (c2 & kLow);
-      c0 = (p1 >> 32) ^ c1 ^ k0;
-      c1 = p1 & kLow;
-      c2 = (p0 >> 32) ^ c3 ^ k1;
-      c3 = p0 & kLow;
-      k0 = (k0 + 0x9E3779B9) & kLow;
-      k1 = (k1 + 0xBB67AE85) & kLow;
+  std::uint32_t k0 = key[0], k1 = key[1];
+  for (int round = 0; round < 10; ++round) {
+    for (int i = 0; i < padded; ++i) {
+      const std::uint64_t p0 = kM0 * c[0][i], p1 = kM1 * c[2][i];
+      c[0][i] = static_cast<std::uint32_t>(p1 >> 32) ^ c[1][i] ^ k0;
+      c[1][i] = static_cast<std::uint32_t>(p1);
+      c[2][i] = static_cast<std::uint32_t>(p0 >> 32) ^ c[3][i] ^ k1;
+      c[3][i] = static_cast<std::uint32_t>(p0);
     }
-    c[0][i] = (c0 | c1 << 32) >> 11;
-    c[1][i] = (c2 | c3 << 32) >> 11;
+    k0 += 0x9E3779B9;
+    k1 += 0xBB67AE85;
   }
   for (int i = 0; i < blocks; ++i) {
-    out[2 * i] = static_cast<double>(c[0][i]) * 0x1.0p-53;
-    out[2 * i + 1] = static_cast<double>(c[1][i]) * 0x1.0p-53;
+    const std::uint64_t u = c[0][i] | static_cast<std::uint64_t>(c[1][i]) << 32;
+    const std::uint64_t v = c[2][i] | static_cast<std::uint64_t>(c[3][i]) << 32;
+    out[2 * i] = static_cast<double>(u >> 11) * 0x1.0p-53;
+    out[2 * i + 1] = static_cast<double>(v >> 11) * 0x1.0p-53;
   }
 }
 

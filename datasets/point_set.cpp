@@ -10,6 +10,8 @@
 namespace antigrasp {
 namespace {
 
+constexpr float kFarOff = std::numeric_limits<float>::infinity();
+
 // Takes `point_of(sample)` of every sample.
 template <int D, typename PointOf>
 PointBlocks<D> Drawn(const TriangleMesh& mesh, int count, std::uint64_t seed, std::uint64_t set,
@@ -29,10 +31,27 @@ PointBlocks<D>::PointBlocks(std::vector<Point> points) : size_(points.size()) {
   AG_CHECK(!points.empty(), "a point set has at least one point");
   for (const Point& point : points) AG_CHECK(point.allFinite(), "finite points");
   Split(points.data(), points.size());
+  AddGroups();
   for (std::size_t k = 0; k < kSize; ++k) {
-    const std::size_t padded = (blocks_.size() + kBlock - 1) / kBlock * kBlock;
-    boxes_.low[k].resize(padded, std::numeric_limits<float>::infinity());
-    boxes_.high[k].resize(padded, std::numeric_limits<float>::infinity());
+    for (Boxes* boxes : {&boxes_, &groups_}) {
+      const std::size_t padded = (boxes->low[k].size() + kBlock - 1) / kBlock * kBlock;
+      boxes->low[k].resize(padded, kFarOff);
+      boxes->high[k].resize(padded, kFarOff);
+    }
+  }
+}
+
+template <int D>
+void PointBlocks<D>::AddGroups() {
+  for (std::size_t k = 0; k < kSize; ++k) {
+    for (std::size_t first = 0; first < blocks_.size(); first += kGroup) {
+      const auto from = static_cast<std::ptrdiff_t>(first);
+      const auto to = static_cast<std::ptrdiff_t>(std::min(first + kGroup, blocks_.size()));
+      groups_.low[k].push_back(
+          *std::min_element(boxes_.low[k].begin() + from, boxes_.low[k].begin() + to));
+      groups_.high[k].push_back(
+          *std::max_element(boxes_.high[k].begin() + from, boxes_.high[k].begin() + to));
+    }
   }
 }
 

@@ -30,6 +30,8 @@ class PointBlocks {
     std::array<std::vector<float>, kSize> low, high;
   };
 
+  static constexpr std::size_t kGroup = kBlock;  // blocks that Split left beside each other
+
   // At least one point, all finite as float32. The order of the points does not matter beyond
   // rounding. O(n log n).
   explicit PointBlocks(std::vector<Point> points);
@@ -37,14 +39,16 @@ class PointBlocks {
   std::size_t size() const { return size_; }
   const std::vector<Block>& blocks() const { return blocks_; }
   const Boxes& boxes() const { return boxes_; }
+  const Boxes& groups() const { return groups_; }  // around kGroup boxes each, filled up likewise
 
  private:
   void Split(Point* points, std::size_t count);
   void AddBlock(const Point* points, std::size_t count);
+  void AddGroups();
 
   std::size_t size_;
   std::vector<Block> blocks_;
-  Boxes boxes_;
+  Boxes boxes_, groups_;
 };
 
 using PointSet = PointBlocks<3>;

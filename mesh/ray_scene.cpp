@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -101,6 +102,7 @@ struct RayScene::Impl {
   std::vector<Eigen::Vector3f> vertices;  // about the centre
   std::vector<std::array<std::int32_t, 3>> corners;
   mutable std::once_flag tree_once, blocks_once;
+  mutable std::atomic<bool> blocks_there = false;  // call_once costs as much as a ray
   mutable RTCDevice device = nullptr;
   mutable RTCScene tree = nullptr;
   mutable std::vector<std::uint32_t> with_area;  // the tree's faces
@@ -126,7 +128,10 @@ struct RayScene::Impl {
     return tree;
   }
   const FaceBlocks& Blocks() const {
-    std::call_once(blocks_once, [this] { blocks.emplace(vertices, corners, center); });
+    if (!blocks_there.load(std::memory_order_acquire)) {
+      std::call_once(blocks_once, [this] { blocks.emplace(vertices, corners, center); });
+      blocks_there.store(true, std::memory_order_release);
+    }
     return *blocks;
   }
 

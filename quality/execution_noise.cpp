@@ -39,7 +39,8 @@ class Turn {
   }
   Vector3d operator()(const Vector3d& point) const {
     if (!(angle_ > 0.0)) return point;
-    return cosine_ * point + sine_ * axis_.cross(point) + (1.0 - cosine_) * axis_.dot(point) * axis_;
+    return cosine_ * point + sine_ * axis_.cross(point) +
+           (1.0 - cosine_) * axis_.dot(point) * axis_;
   }
 
  private:

@@ -71,6 +71,11 @@ TEST(NearestSquared, IsThatOfThePlainDoubleLoopBitForBit) {
     ExpectThoseOfThePlainDoubleLoop(PointSet(Cloud(count, 1)), PointSet(Cloud(333, 2)));
     ExpectThoseOfThePlainDoubleLoop(OrientedPointSet(SixfoldCloud(count, 1)),
                                     OrientedPointSet(SixfoldCloud(333, 2)));
+    ExpectThoseOfThePlainDoubleLoop(PointSet(Cloud(333, 2)), PointSet(Cloud(count, 1)));
+  }
+  // 313 blocks in 20 groups, and those of one block, 16 and 17.
+  for (const int count : {256, 257, 272, 5000}) {
+    ExpectThoseOfThePlainDoubleLoop(PointSet(Cloud(100, 1)), PointSet(Cloud(count, 2)));
   }
 }
 

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "antigrasp/core/parallel.h"
 #include "tests/support/random_draws.h"
@@ -118,6 +121,123 @@ TEST(RayScene, ConcurrentQueriesGiveTheSameHits) {
     return result;
   };
   EXPECT_EQ(distances(1), distances(4));
+}
+
+// Whether a ray among near ones meets what it meets alone, to the last bit.
+::testing::AssertionResult MeetsTheSame(const RayScene& scene, const Ray& ray,
+                                        const NearFaces& near) {
+  const auto alone = scene.Closest(ray.origin, ray.direction, ray.length);
+  const auto among = scene.Closest(ray, near);
+  if (alone.has_value() != among.has_value()) {
+    return ::testing::AssertionFailure() << (alone ? "met alone" : "met among others");
+  }
+  if (!alone || (alone->face == among->face && alone->distance == among->distance &&
+                 alone->point == among->point && alone->normal == among->normal &&
+                 alone->front == among->front)) {
+    return ::testing::AssertionSuccess();
+  }
+  return ::testing::AssertionFailure() << "face " << alone->face << " at " << alone->distance
+                                       << ", not " << among->face << " at " << among->distance;
+}
+
+void ExpectTheSame(const RayScene& scene, const std::vector<Ray>& rays) {
+  NearFaces near, line;
+  scene.Near(rays, &near);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    EXPECT_TRUE(MeetsTheSame(scene, rays[i], near)) << i;
+    scene.Near({&rays[i], 1}, &line);
+    EXPECT_TRUE(MeetsTheSame(scene, rays[i], line)) << i << " by itself";
+  }
+}
+
+// Rays beside each other, as a grasp's draws are: moved and turned a little.
+std::vector<Ray> Beside(const Vector3d& origin, const Vector3d& direction, double spread,
+                        double length, RngStream* rng) {
+  std::vector<Ray> rays;
+  for (int i = 0; i < 25; ++i) {
+    rays.push_back(
+        {origin + DrawPoint(spread, rng), (direction + DrawPoint(0.01, rng)).normalized(), length});
+  }
+  return rays;
+}
+
+TEST(NearRays, MeetWhatEachMeetsAlone) {
+  const Vector3d far(30.0, -20.0, 5.0);
+  const TriangleMesh torus = Transformed(shapes::Torus(0.02, 0.008, 60, 30), 1.0, far);
+  const RayScene scene(torus);
+  RngStream rng(1, "near rays");
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 200; ++i) {
+    const double length = i % 3 == 0 ? kInfinity : i % 3 == 1 ? 0.025 : 0.05;
+    ExpectTheSame(scene,
+                  Beside(far + DrawPoint(0.02, &rng), DrawDirection(&rng), 0.003, length, &rng));
+  }
+}
+
+// Through corners and along edges several faces are met at one distance, and float arithmetic
+// chooses.
+TEST(NearRays, MeetTheSameFaceAtCornersAndEdges) {
+  const TriangleMesh sphere = shapes::Sphere(0.03, 3);
+  const RayScene scene(sphere);
+  RngStream rng(2, "near rays");
+  for (std::size_t i = 0; i < sphere.faces.size(); i += 7) {
+    std::vector<Ray> rays;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto vertex = [&](std::size_t c) -> const Vector3d& {
+        return sphere.vertices[static_cast<std::size_t>(sphere.faces[i][c % 3])];
+      };
+      const double share = rng.Uniform();
+      for (const Vector3d& aim : {vertex(k), Vector3d(0.5 * (vertex(k) + vertex(k + 1))),
+                                  Vector3d(vertex(k) + share * (vertex(k + 1) - vertex(k)))}) {
+        for (const double off : {0.0, 1e-9, 1e-8}) {
+          const Vector3d target = aim + DrawPoint(off, &rng);
+          rays.push_back({1.7 * target, -target.normalized(), 0.05});
+        }
+      }
+    }
+    ExpectTheSame(scene, rays);
+  }
+}
+
+TEST(NearRays, MeetTheSameFaceOfSheetsAndNeedlesAndAtTheirEnds) {
+  TriangleMesh mesh = shapes::Box({0.03, 0.04, 0.05});
+  for (const double gap : {0.0, 1e-10, 1e-8, 1e-6}) {  // sheets within another's rounding
+    mesh = shapes::Joined(
+        mesh, Transformed(shapes::Box({0.03 + gap, 0.02, 0.02}), 1.0, Vector3d(0.0, 0.005, 0.0)));
+  }
+  const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+  for (int i = 0; i < 40; ++i) {  // needles, some without area
+    const double z = 0.001 * i - 0.02, wide = i % 4 == 0 ? 0.0 : std::pow(10.0, -3 - i % 9);
+    mesh.vertices.insert(mesh.vertices.end(),
+                         {{0.016, -0.02, z}, {0.017, 0.02, z}, {0.0165, 0.0, z + wide}});
+    mesh.faces.push_back({first + 3 * i, first + 3 * i + 1, first + 3 * i + 2});
+  }
+  const RayScene scene(mesh);
+  RngStream rng(3, "near rays");
+  for (int i = 0; i < 400; ++i) {
+    const Vector3d origin(0.04, 0.015 * rng.Uniform(-1.0, 1.0), 0.02 * rng.Uniform(-1.0, 1.0));
+    // Behind, at and before the face at 0.015, by less than float knows and by more.
+    const double end = 0.025 + std::array{0.0, 1e-10, -1e-9, 1e-8, -1e-6, 1e-3}[i % 6];
+    std::vector<Ray> rays = Beside(origin, -Vector3d::UnitX(), 0.001, end, &rng);
+    rays.push_back({origin, -Vector3d::UnitX(), end});
+    rays.push_back({origin, Vector3d(-1.0, 1e-7, 0.0).normalized(), end});
+    // Along a face, and from a face.
+    rays.push_back({Vector3d(0.04, 0.02, origin.z()), -Vector3d::UnitX(), 0.05});
+    rays.push_back({Vector3d(0.015, origin.y(), origin.z()), -Vector3d::UnitX(), 0.05});
+    ExpectTheSame(scene, rays);
+  }
+}
+
+TEST(NearRays, MeetNothingOfAMeshWithoutFaces) {
+  const RayScene scene(TriangleMesh{});
+  ExpectTheSame(scene, {{Vector3d::Zero(), Vector3d::UnitX(), 1.0}});
+}
+
+TEST(NearRays, MeetTheSameWhereFloatEnds) {
+  for (const double scale : {1e-12, 1e-3, 1e12}) {
+    const RayScene scene(Transformed(shapes::Cube(), scale, Vector3d::Zero()));
+    ExpectTheSame(scene, {{Vector3d(-2.0, 0.1, 0.2) * scale, Vector3d::UnitX(), 10.0 * scale}});
+  }
 }
 
 }  // namespace

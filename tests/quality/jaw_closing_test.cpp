@@ -4,7 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <vector>
 
+#include "tests/support/random_draws.h"
 #include "tests/support/shapes.h"
 
 namespace antigrasp {
@@ -101,6 +103,38 @@ TEST(CloseJaws, MeetsTheOuterOfTwoBodies) {
 TEST(CloseJaws, AnInvertedObjectCannotBeTouched) {
   const RayScene scene(shapes::Inverted(shapes::Box({0.03, 0.03, 0.03})));
   EXPECT_FALSE(CloseJaws(scene, Vector3d::Zero(), Vector3d::UnitX(), kOpening, kFriction));
+}
+
+// Some jaws miss, some slip at their own friction, some start inside.
+TEST(CloseJawsTogether, GivesEachWhatItGivesAlone) {
+  TriangleMesh wedge = shapes::Box({0.03, 0.04, 0.05});
+  for (Eigen::Vector3d& v : wedge.vertices) {
+    if (v.x() > 0.0) v.x() -= 0.25 * v.y();
+  }
+  const RayScene scene(wedge);
+  RngStream rng(1, "jaws");
+  std::vector<JawClosing> closings;
+  for (int i = 0; i < 300; ++i) {
+    closings.push_back({DrawPoint(0.009, &rng),
+                        (Vector3d::UnitX() + DrawPoint(0.1, &rng)).normalized(), rng.Uniform()});
+  }
+  std::vector<std::optional<std::array<Contact, 2>>> contacts(closings.size());
+  CloseJawsTogether(scene, closings, kOpening, contacts);
+  int closed = 0;
+  for (std::size_t i = 0; i < closings.size(); ++i) {
+    const JawClosing& jaws = closings[i];
+    const auto alone = CloseJaws(scene, jaws.center, jaws.axis, kOpening, jaws.friction);
+    ASSERT_EQ(contacts[i].has_value(), alone.has_value()) << i;
+    if (!alone) continue;
+    ++closed;
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ((*contacts[i])[k].point, (*alone)[k].point) << i;
+      EXPECT_EQ((*contacts[i])[k].normal, (*alone)[k].normal) << i;
+      EXPECT_EQ((*contacts[i])[k].normal_force, (*alone)[k].normal_force) << i;
+    }
+  }
+  EXPECT_GT(closed, 30);
+  EXPECT_LT(closed, 270);
 }
 
 }  // namespace

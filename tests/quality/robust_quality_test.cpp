@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "antigrasp/quality/epsilon.h"
 #include "antigrasp/quality/jaw_closing.h"
@@ -47,6 +48,30 @@ TEST(RobustQuality, WithoutNoiseIsTheEpsilonOfTheGrasp) {
   EXPECT_GT(epsilon, 0.0);
   RngStream rng(1, "noise");
   EXPECT_NEAR(RobustQuality(scene, kCom, grasp, options, &rng), epsilon, 1e-15);
+}
+
+TEST(ExecutedQualities, AreThoseOfSingleDrawsToTheLastBit) {
+  const RayScene scene(BoxMesh());
+  const MetricOptions options;
+  const Grasp grasp = GraspAcross(scene, {0.0, 0.004, 0.01});
+  RngStream rng(2, "noise"), again(2, "noise");
+  std::vector<NoiseDraw> draws(60);
+  std::vector<double> together(60);
+  DrawNoises(options, &rng, draws);
+  ExecutedQualities(scene, kCom, grasp, options, draws, together);
+  int held = 0;
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    const NoiseDraw draw = DrawNoise(options, &again);
+    EXPECT_EQ(draws[i].object_translation, draw.object_translation);
+    EXPECT_EQ(draws[i].object_rotation, draw.object_rotation);
+    EXPECT_EQ(draws[i].grasp_translation, draw.grasp_translation);
+    EXPECT_EQ(draws[i].grasp_rotation, draw.grasp_rotation);
+    EXPECT_EQ(draws[i].friction, draw.friction);
+    EXPECT_EQ(together[i], ExecutedQuality(scene, kCom, grasp, options, draw)) << i;
+    held += together[i] > 0.0;
+  }
+  EXPECT_GT(held, 30);
+  EXPECT_EQ(rng.NextU64(), again.NextU64());
 }
 
 TEST(RobustQuality, IsTheMeanOverItsDraws) {
