@@ -79,6 +79,17 @@ TEST(NearestSquared, IsThatOfThePlainDoubleLoopBitForBit) {
   }
 }
 
+// Blocks of 16 along a line, and groups of 16 blocks that meet at 256 / 512: what is nearest to a
+// point just below that lies in the last block of the first group, and the second group is nearer.
+TEST(NearestSquared, LooksIntoTheLastBlockOfAGroup) {
+  std::vector<Vector3f> line;
+  for (int i = 0; i < 512; ++i) line.emplace_back(static_cast<float>(i) / 512.0F, 0.0F, 0.0F);
+  const PointSet query({Vector3f(254.5F / 512.0F, 0.02F, 0.0F)});
+  std::vector<float> squared;
+  NearestSquared(query, PointSet(line), &squared);
+  EXPECT_NEAR(std::sqrt(squared[0]), std::hypot(0.5 / 512.0, 0.02), 1e-7);
+}
+
 TEST(NearestSquared, WithNormalsOfSurfacesIsThatOfThePlainDoubleLoopBitForBit) {
   const auto points = [](const TriangleMesh& mesh, std::uint64_t shape) {
     return OrientedSurfacePoints(mesh, 500, 1, 0, shape, 0.3);
