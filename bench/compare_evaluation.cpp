@@ -59,22 +59,33 @@ struct Steps {
   void BuildScenes() const {
     for (const Recorded& r : objects) {
       const RayScene scene(r.mesh);
-      *sink += scene.Closest(r.com, Eigen::Vector3d::UnitX(), 1.0).has_value();
+      *sink += scene.Blocks().radius();
     }
   }
   void DrawNoises() const {
+    std::vector<NoiseDraw> draws(static_cast<std::size_t>(options.num_draws));
     for (const Recorded& r : objects) {
       RngStream rng(1, "noise", 0, 0);
-      for (std::size_t i = 0; i < r.noise.size(); ++i) *sink += DrawNoise(options, &rng).friction;
+      for (std::size_t i = 0; i < r.noise.size(); i += draws.size()) {
+        antigrasp::DrawNoises(options, &rng, draws);
+        *sink += draws[0].friction;
+      }
     }
   }
+  // A grasp's draws together, as they are recorded.
   void CastRays(const std::vector<RayScene>& scenes) const {
+    const auto draws = static_cast<std::size_t>(options.num_draws);
+    std::vector<JawClosing> closings(draws);
+    std::vector<std::optional<std::array<Contact, 2>>> contacts(draws);
     for (std::size_t k = 0; k < objects.size(); ++k) {
       const Recorded& r = objects[k];
-      for (std::size_t i = 0; i < r.poses.size(); ++i) {
-        *sink += CloseJaws(scenes[k], r.poses[i].center, r.poses[i].axis, options.jaw_opening,
-                           r.noise[i].friction)
-                     .has_value();
+      for (std::size_t first = 0; first < r.poses.size(); first += draws) {
+        for (std::size_t i = 0; i < draws; ++i) {
+          const JawPose& pose = r.poses[first + i];
+          closings[i] = {pose.center, pose.axis, r.noise[first + i].friction};
+        }
+        CloseJawsTogether(scenes[k], closings, options.jaw_opening, contacts);
+        *sink += contacts[0].has_value();
       }
     }
   }

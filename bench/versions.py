@@ -28,14 +28,14 @@ def processor_seconds(call, folder):
 
 def make_sets(program, folder):
     for kind in KINDS:
-        for count, name in ((OBJECTS, kind), (max(OBJECTS // 30, 2), f"few-{kind}"), (max(OBJECTS // 6, 3), f"some-{kind}")):
+        for count, name in ((OBJECTS, kind), (max(OBJECTS // 30, 2), f"few-{kind}")):
             processor_seconds([program, "dataset", "make", kind, "--count", str(count), "--seed", "11", "--out", f"{name}.h5"], folder)
 
 
 WORK = {f"evaluate {kind}": ["evaluate", f"{kind}.h5", "--threads", "1", "--out", f"{kind}.csv"] for kind in KINDS}
 WORK["perturb search"] = ["perturb", "search", "few-cylinders.h5", "--threads", "1", "--out", "search-ROUND"]
 for points in (1024, 4096):
-    WORK[f"compare {points}"] = ["compare", "some-cylinders.h5", "some-bottles.h5", "--points", str(points), "--threads", "1"]
+    WORK[f"compare {points}"] = ["compare", "cylinders.h5", "bottles.h5", "--points", str(points), "--threads", "1"]
 
 
 def words_of(program, words, number):
