@@ -9,7 +9,7 @@ namespace antigrasp {
 // and sine of 2 pi v, u = uniform[2 i] and v = uniform[2 i + 1] in [0, 1) with 53 bits. The bits
 // are those of std::log, std::sin and std::cos: logarithm, sine and cosine are computed to a
 // hundredth of their last bit, and where that leaves open what a library that is right to .55 of it
-// returns, the library is asked. A third of the library's time with AVX2 and FMA, else its own.
+// returns, the library is asked. Half the library's time with AVX2 and FMA, else its own.
 void BoxMuller(const double* uniform, int pairs, double* out);
 
 // The uniform numbers of a stream's next `blocks` blocks of Philox, two a block: those of

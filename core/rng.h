@@ -27,7 +27,7 @@ class RngStream {
   double Uniform();                         // [0, 1), 53 bits
   double Uniform(double low, double high);  // [low, high)
   double Normal();                          // mean 0, standard deviation 1 (Box-Muller)
-  // As many calls of Normal: the same numbers, in a third of the time.
+  // As many calls of Normal: the same numbers, in less than half the time.
   void Normals(std::span<double> out);
   std::uint64_t Below(std::uint64_t n);  // {0, ..., n-1} without bias; n > 0
 

@@ -45,7 +45,7 @@ class RayScene {
 
   // The faces that rays can meet which reach no further to any side than `rays` do.
   void Near(std::span<const Ray> rays, NearFaces* near) const;
-  // The same answer, bit for bit, for a ray among them: 0.03 us where a grasp's draws are together.
+  // The same answer, bit for bit, for a ray among them: 0.2 us with its share of Near, of 25 rays.
   // Where float arithmetic leaves open which face is first, Embree is asked.
   std::optional<RayHit> Closest(const Ray& ray, const NearFaces& near) const;
 

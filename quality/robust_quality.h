@@ -23,7 +23,7 @@ WrenchModel WrenchModelOf(const MetricOptions& options, double friction);
 double ExecutedQuality(const RayScene& scene, const Eigen::Vector3d& com, const Grasp& grasp,
                        const MetricOptions& options, const NoiseDraw& noise);
 
-// The same of many draws, bit for bit, in a third of the time for 25.
+// The same of many draws, bit for bit; see CloseJawsTogether.
 void ExecutedQualities(const RayScene& scene, const Eigen::Vector3d& com, const Grasp& grasp,
                        const MetricOptions& options, std::span<const NoiseDraw> draws,
                        std::span<double> qualities);
