@@ -8,6 +8,25 @@
 #include "antigrasp/report/page/base64.h"
 
 namespace antigrasp {
+namespace {
+
+// The blob in several script elements, so that the page can draw the first objects while the
+// browser still reads the last: a browser shows a script what an element holds when the next one
+// has begun.
+std::string BlobElements(std::string_view blob) {
+  constexpr std::size_t kPiece = 3 << 16;  // bytes: whole groups of base 64
+  std::string text;
+  text.reserve(blob.size() / 3 * 4 + blob.size() / kPiece * 80 + 4);
+  for (std::size_t at = 0; at < blob.size(); at += kPiece) {
+    if (at > 0) {
+      text += "</script>\n<script type=\"application/octet-stream\" class=\"antigrasp-blob\">";
+    }
+    text += Base64(blob.substr(at, kPiece));
+  }
+  return text;
+}
+
+}  // namespace
 
 std::string FillTemplate(std::string_view page_template, const std::string& title,
                          const ReportPayload& payload) {
@@ -18,7 +37,7 @@ std::string FillTemplate(std::string_view page_template, const std::string& titl
   };
   std::array<Marker, 3> markers = {Marker{"ANTIGRASP_TITLE", MarkupEscaped(title)},
                                    Marker{"\"ANTIGRASP_REPORT_JSON\"", payload.json},
-                                   Marker{"ANTIGRASP_BLOB_BASE64", Base64(payload.blob)}};
+                                   Marker{"ANTIGRASP_BLOB_BASE64", BlobElements(payload.blob)}};
   for (Marker& marker : markers) {
     marker.at = page_template.find(marker.text);
     AG_CHECK(marker.at != std::string_view::npos &&

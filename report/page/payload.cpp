@@ -1,14 +1,13 @@
 #include "antigrasp/report/page/payload.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "antigrasp/report/page/deflated_part.h"
 #include "antigrasp/report/page/display_mesh.h"
+#include "antigrasp/report/page/packed_grasps.h"
 #include "antigrasp/report/page/report_json.h"
 #include "antigrasp/sdf/mesh_to_sdf.h"
 
@@ -21,23 +20,22 @@ using Json = nlohmann::ordered_json;
 // One mesh with its grasps as bytes.
 struct EncodedShape {
   std::optional<DisplayMesh> mesh;
-  std::string positions, indices, grasps;
+  DeflatedPart positions, indices, grasps;
 };
 
 struct EncodedObject {
   EncodedShape shape, original;
-  std::string displacement;
+  DeflatedPart displacement;
   double max_displacement = 0.0;
+  std::vector<DeflatedPart> frames;  // of the replays
 };
 
 class Blob {
  public:
-  // [offset, length] of the part.
-  Json Append(const std::string& part) {
-    constexpr std::size_t kAlignment = 4;
-    bytes_.resize((bytes_.size() + kAlignment - 1) / kAlignment * kAlignment, '\0');
-    const Json place = {bytes_.size(), part.size()};
-    bytes_ += part;
+  // [offset, length, size] of the part.
+  Json Append(const DeflatedPart& part) {
+    const Json place = {bytes_.size(), part.stream.size(), part.size};
+    bytes_ += part.stream;
     return place;
   }
   std::string Take() { return std::move(bytes_); }
@@ -46,40 +44,25 @@ class Blob {
   std::string bytes_;
 };
 
-// 17 float32 a grasp, best first: contact points, outward normals, approach, quality, width.
-std::string EncodeGrasps(std::vector<ScoredGrasp> grasps, double metres_per_unit) {
-  static_assert(std::endian::native == std::endian::little);
-  std::stable_sort(grasps.begin(), grasps.end(), [](const ScoredGrasp& a, const ScoredGrasp& b) {
-    return a.quality > b.quality;
-  });
-  std::vector<float> values;
-  const auto add = [&](const Vector3d& v) {
-    for (int k = 0; k < 3; ++k) values.push_back(static_cast<float>(v[k]));
-  };
-  for (const auto& [grasp, quality, draws, candidate] : grasps) {
-    for (const Contact& contact : grasp.contacts) add(contact.point / metres_per_unit);
-    for (const Contact& contact : grasp.contacts) add(contact.normal);
-    add(grasp.approach);
-    values.push_back(static_cast<float>(quality));
-    values.push_back(static_cast<float>(grasp.width / metres_per_unit));
-  }
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
-}
-
 EncodedShape Encode(const ReportShape& shape, std::size_t max_triangles) {
   EncodedShape encoded;
   encoded.mesh = MakeDisplayMesh(shape.mesh, max_triangles);
   if (encoded.mesh) {
-    encoded.positions = EncodePositions(*encoded.mesh);
-    encoded.indices = EncodeIndices(*encoded.mesh);
+    encoded.positions = Deflated(EncodePositions(*encoded.mesh));
+    encoded.indices = Deflated(EncodeIndices(*encoded.mesh));
   }
-  encoded.grasps = EncodeGrasps(shape.grasps, shape.metres_per_unit);
+  encoded.grasps = Deflated(PackGrasps(shape.grasps, shape.metres_per_unit));
   return encoded;
 }
 
 EncodedObject Encode(const ReportObject& object, std::size_t max_triangles) {
   EncodedObject encoded;
   encoded.shape = Encode(object.shape, max_triangles);
+  if (object.trials) {
+    for (const ReportReplay& replay : object.trials->replays) {
+      encoded.frames.push_back(Deflated(replay.frames));
+    }
+  }
   if (!object.original) return encoded;
   encoded.original = Encode(object.original->shape, max_triangles);
   if (!encoded.shape.mesh || !encoded.original.mesh) return encoded;
@@ -89,10 +72,12 @@ EncodedObject Encode(const ReportObject& object, std::size_t max_triangles) {
     distances.push_back(surface.Unsigned(vertex));
   }
   const double largest = *std::max_element(distances.begin(), distances.end());
+  std::string shares;
   for (const double distance : distances) {
     const double share = largest > 0.0 ? distance / largest : 0.0;
-    encoded.displacement += static_cast<char>(std::lround(255.0 * share));
+    shares += static_cast<char>(std::lround(255.0 * share));
   }
+  encoded.displacement = Deflated(shares);
   encoded.max_displacement = largest;
   return encoded;
 }
@@ -114,7 +99,7 @@ void AddShape(const ReportShape& shape, const EncodedShape& encoded, Blob* blob,
   (*json)["mesh"] = MeshJson(encoded, blob);
   (*json)["metres_per_unit"] = shape.metres_per_unit;
   (*json)["com"] = encoded.mesh ? VectorJson(CenterOfMass(shape.mesh)) : Json();
-  (*json)["grasps"] = encoded.grasps.empty() ? Json() : blob->Append(encoded.grasps);
+  (*json)["grasps"] = encoded.grasps.size == 0 ? Json() : blob->Append(encoded.grasps);
 }
 
 Json ObjectJson(const ReportObject& object, const EncodedObject& encoded, Blob* blob) {
@@ -126,7 +111,7 @@ Json ObjectJson(const ReportObject& object, const EncodedObject& encoded, Blob* 
   if (object.original) {
     Json& pair = json["pair"] = {{"label", object.original->label}};
     AddShape(object.original->shape, encoded.original, blob, &pair);
-    if (!encoded.displacement.empty()) {
+    if (encoded.displacement.size > 0) {
       pair["displacement"] = blob->Append(encoded.displacement);
       pair["max_displacement"] = encoded.max_displacement;
     }
@@ -135,8 +120,8 @@ Json ObjectJson(const ReportObject& object, const EncodedObject& encoded, Blob* 
   json["print"] = object.print ? PrintJson(*object.print) : Json();
   if (object.trials) {
     Json& trials = json["trials"] = TrialsJson(*object.trials);
-    for (std::size_t i = 0; i < object.trials->replays.size(); ++i) {
-      trials["replays"][i]["frames"] = blob->Append(object.trials->replays[i].frames);
+    for (std::size_t i = 0; i < encoded.frames.size(); ++i) {
+      trials["replays"][i]["frames"] = blob->Append(encoded.frames[i]);
     }
   }
   return json;

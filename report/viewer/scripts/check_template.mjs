@@ -9,7 +9,7 @@ const MARKERS = [
   ],
   [
     "geometry",
-    '<script type="application/octet-stream" id="antigrasp-blob">ANTIGRASP_BLOB_BASE64</script>',
+    '<script type="application/octet-stream" class="antigrasp-blob">ANTIGRASP_BLOB_BASE64</script>',
     "ANTIGRASP_BLOB_BASE64",
   ],
   ["title", "<title>ANTIGRASP_TITLE</title>", "ANTIGRASP_TITLE"],

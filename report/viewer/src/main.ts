@@ -1,4 +1,5 @@
 import "./style.css";
+import { blobLoaded } from "./data/blob";
 import { decoderReady } from "./data/mesh";
 import { readReport, type Report } from "./data/report";
 import { h } from "./dom";
@@ -22,8 +23,16 @@ function message(text: string): Page {
   };
 }
 
+// This program runs before the browser has read the geometry, which lies behind it. The overview and the gallery show
+// objects as they arrive; other pages need all of theirs at once.
+function isEarly(): boolean {
+  const { page } = parseRoute(location.hash);
+  return !blobLoaded() && (page === "object" || page === "replay");
+}
+
 function pageFor(report: Report): Page {
   const route = parseRoute(location.hash);
+  if (isEarly()) return message("Loading the report …");
   if (route.page === "gallery") return galleryPage(report);
   if (route.page === "overview") return overviewPage(report);
   if (route.index >= report.objects.length) return message(`This report has no object ${route.index}.`);
@@ -75,8 +84,10 @@ function start(): void {
   );
 
   let current: Page | null = null;
+  let waits = false;
   const show = (navigated: boolean) => {
     current?.dispose?.();
+    waits = isEarly();
     const page = pageFor(report);
     current = page;
     holder.replaceChildren(page.element);
@@ -89,6 +100,9 @@ function start(): void {
     page.mounted?.();
   };
   window.addEventListener("hashchange", () => show(true));
+  document.addEventListener("DOMContentLoaded", () => {
+    if (waits) show(false);
+  });
   // Pages that draw objects need the decoder; it is there after a few milliseconds, or never (then they say so).
   decoderReady.then(
     () => show(false),

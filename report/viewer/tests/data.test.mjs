@@ -1,30 +1,58 @@
 // What the page reads from the payload and how it orders and colours it, against literal bytes and lopsided shapes.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { Blob, meshRecord, score } from "./support/payload.mjs";
+import { deflateRawSync } from "node:zlib";
+import { Blob, meshRecord, packGrasps, score } from "./support/payload.mjs";
 import { allNear, cuboid, cuboidParts, near, sources } from "./support/sources.mjs";
 
 const blob = new Blob();
-blob.add(Uint8Array.from([0, 1, 2, 250, 251, 252, 253]));
+const BYTES = [0, 1, 2, 250, 251, 252, 253];
+// Streams of every length begin at each of the three places in a group of base64.
+const parts = [0, 1, 2, 3, 4, 5, 6, 7].map((length) => blob.add(Uint8Array.from(BYTES.slice(0, length))));
+const tooLong = [...blob.addStored(deflateRawSync(Buffer.alloc(5000))), 4999];
+const literal = [...blob.addStored([0x4b, 0xcc, 0x2b, 0xc9, 0x4c, 0x2f, 0x4a, 0x2c, 0x2e, 0x00, 0x00]), 9];
+const noStream = [...blob.addStored([255, 255, 255, 255]), 4];
 let page;
 const load = (path) => page.load(path);
 before(async () => {
   page = await sources();
-  globalThis.document = { getElementById: () => ({ textContent: blob.base64() }) }; // read when first asked for
+  // Read when first asked for; pieces of 96 bytes, so that parts lie across them.
+  const elements = () => blob.pieces(96).map((textContent) => ({ textContent }));
+  globalThis.document = { readyState: "complete", getElementsByClassName: elements };
 });
 after(() => page.close());
 
-// One grasp as the binary packs it: every float another one.
+// One grasp as the binary packs it: every number another one.
 const GRASP = [1, 2, 3, 4, 6, 3, 0, 0, -1, 0, 1, 0, 1, 0, 0, 0.25, 5];
-const graspPart = blob.add(new Uint8Array(Float32Array.from([...GRASP, ...GRASP.map((x) => -x)]).buffer));
+const graspPart = blob.add(packGrasps([GRASP, GRASP.map((x) => -x)]));
 const box = meshRecord(blob, cuboidParts([1, 2, 4], [10, 20, 30]));
+
+test("a part has arrived once the element that holds its end is complete", async () => {
+  const { hasArrived } = await load("/src/data/blob.ts");
+  document.readyState = "loading";
+  assert.ok(hasArrived([0, 96 * (blob.pieces(96).length - 1), 1]));
+  assert.ok(!hasArrived([0, 96 * (blob.pieces(96).length - 1) + 1, 1]));
+  document.readyState = "interactive";
+  assert.ok(hasArrived([0, blob.length, 1]));
+});
 
 test("a part of the blob is its bytes, wherever it begins", async () => {
   const { bytesOf } = await load("/src/data/blob.ts");
-  assert.deepEqual([...bytesOf([0, 7])], [0, 1, 2, 250, 251, 252, 253]);
-  assert.deepEqual([...bytesOf([2, 3])], [2, 250, 251]);
-  assert.deepEqual([...bytesOf([4, 2])], [251, 252]);
-  assert.throws(() => bytesOf([blob.length, 4]), RangeError);
+  for (const [length, part] of parts.entries()) assert.deepEqual([...bytesOf(part)], BYTES.slice(0, length));
+  // "antigrasp" as zlib of Python deflates it.
+  assert.equal(Buffer.from(bytesOf(literal)).toString(), "antigrasp");
+});
+
+test("a part that is cut short, longer than it says or no stream is refused", async () => {
+  const { bytesOf } = await load("/src/data/blob.ts");
+  const [offset, length, size] = parts[7];
+  assert.throws(() => bytesOf([blob.length, 4, 4]), /cut short/);
+  assert.throws(() => bytesOf([offset, length, size + 1]), /cut short/);
+  assert.throws(() => bytesOf([offset, length - 1, size]));
+  assert.throws(() => bytesOf([offset, length, 1e15]), /cut short/);
+  assert.throws(() => bytesOf([offset, length, NaN]), /cut short/);
+  assert.throws(() => bytesOf(tooLong));
+  assert.throws(() => bytesOf(noStream));
 });
 
 test("a grasp is its two contacts, their normals, the approach, its quality and its width", async () => {

@@ -18,6 +18,17 @@ TEST(Page, FillsEveryMarkerOnceWhateverTheDataHolds) {
                 "</script><script>Zm9vYmFy</script>end");
 }
 
+TEST(Page, AnElementHoldsAQuarterOfAMillionCharactersOfTheBlobAtMost) {
+  const std::string full(3 << 16, '\0');
+  const std::string as(1 << 18, 'A');
+  const std::string begin = "<title>t</title><script>{}</script><script>";
+  EXPECT_EQ(FillTemplate(kTemplate, "t", {"{}", full}), begin + as + "</script>end");
+  EXPECT_EQ(FillTemplate(kTemplate, "t", {"{}", full + "foobar"}),
+            begin + as +
+                "</script>\n<script type=\"application/octet-stream\" class=\"antigrasp-blob\">"
+                "Zm9vYmFy</script>end");
+}
+
 TEST(Page, TitleIsText) {
   const std::string page = FillTemplate(kTemplate, "</title><script>alert('\"&\")", {"{}", ""});
   EXPECT_TRUE(

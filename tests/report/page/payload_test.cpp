@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "antigrasp/report/page/display_mesh.h"
+#include "antigrasp/report/page/packed_grasps.h"
+#include "tests/report/page/inflated.h"
 #include "tests/support/shapes.h"
 
 namespace antigrasp {
@@ -34,12 +35,11 @@ Report ReportOf(std::vector<ReportObject> objects) {
 
 Json Parsed(const Report& report) { return Json::parse(EncodeReport(report, {}).json); }
 
-// The part [offset, length] of the blob; its bounds are checked.
+// The part [offset, length, size] of the blob, inflated; its bounds and its size are checked.
 std::string Part(const std::string& blob, const Json& place) {
   const std::size_t offset = place[0], length = place[1];
-  EXPECT_EQ(offset % 4, 0u);
   EXPECT_LE(offset + length, blob.size());
-  return blob.substr(offset, length);
+  return Inflated(blob.substr(offset, length), place[2]);
 }
 
 TEST(Payload, NamesNeverCloseTheScriptAndReadBackAsTheyAre) {
@@ -117,30 +117,33 @@ TEST(Payload, MeshesAreTheStreamsOfTheDisplayMesh) {
   EXPECT_LE(ball["objects"][0]["mesh"]["triangles"], 100);
 }
 
-TEST(Payload, GraspsComeBestFirstInTheUnitsOfTheMesh) {
+TEST(Payload, GraspsArePackedInTheUnitsOfTheMesh) {
   ReportObject object = ObjectOf("cube", shapes::Cube());
   object.shape.metres_per_unit = 0.04;
-  for (const double quality : {0.001, 0.003, 0.002}) {
-    ScoredGrasp scored;
-    scored.quality = quality;
-    scored.grasp.contacts[0] = {{-0.02, 0.0, quality}, {-1.0, 0.0, 0.0}};
-    scored.grasp.contacts[1] = {{0.02, 0.0, quality}, {1.0, 0.0, 0.0}};
-    scored.grasp.approach = {0.0, 0.0, -1.0};
-    scored.grasp.width = 0.04;
-    object.shape.grasps.push_back(scored);
-  }
+  object.shape.grasps.resize(2);
+  object.shape.grasps[1].quality = 0.003;
+  object.shape.grasps[1].grasp.width = 0.04;
   const ReportPayload payload = EncodeReport(ReportOf({object}), {});
   const Json json = Json::parse(payload.json)["objects"][0];
   EXPECT_EQ(json["metres_per_unit"], 0.04);
-  const std::string bytes = Part(payload.blob, json["grasps"]);
-  ASSERT_EQ(bytes.size(), 3 * 17 * sizeof(float));
-  std::array<float, 3 * 17> values;
-  std::memcpy(values.data(), bytes.data(), bytes.size());
-  const std::array<float, 17> best = {-0.5F, 0, 0.075F, 0.5F, 0, 0.075F, -1,     0, 0,
-                                      1,     0, 0,      0,    0, -1,     0.003F, 1};
-  for (std::size_t k = 0; k < best.size(); ++k) EXPECT_FLOAT_EQ(values[k], best[k]) << k;
-  EXPECT_FLOAT_EQ(values[17 + 15], 0.002F);
-  EXPECT_FLOAT_EQ(values[34 + 15], 0.001F);
+  EXPECT_EQ(Part(payload.blob, json["grasps"]), PackGrasps(object.shape.grasps, 0.04));
+}
+
+TEST(Payload, PartsStandInTheBlobOneAfterTheOtherAndReplaysAmongThem) {
+  ReportObject object = ObjectOf("cube", shapes::Cube());
+  object.trials.emplace().replays = {{R"({"grasp":1})", "[1,2]"}, {R"({"grasp":2})", "[3]"}};
+  const ReportPayload payload = EncodeReport(ReportOf({object}), {});
+  const Json json = Json::parse(payload.json)["objects"][0];
+  std::size_t end = 0;
+  for (const Json& place :
+       {json["mesh"]["positions"], json["mesh"]["indices"], json["trials"]["replays"][0]["frames"],
+        json["trials"]["replays"][1]["frames"]}) {
+    EXPECT_EQ(place[0], end);
+    end += place[1].get<std::size_t>();
+  }
+  EXPECT_EQ(end, payload.blob.size());
+  EXPECT_EQ(Part(payload.blob, json["trials"]["replays"][0]["frames"]), "[1,2]");
+  EXPECT_EQ(Part(payload.blob, json["trials"]["replays"][1]["frames"]), "[3]");
 }
 
 TEST(Payload, DisplacementIsTheDistanceToTheOriginalInTheOrderOfTheVertices) {
@@ -196,7 +199,7 @@ TEST(Payload, PrintCheckAndHeadAreWrittenAsTheyAre) {
   report.metric.emplace().friction = 0.75;
   const Json json = Parsed(report);
   EXPECT_EQ(json["format"], "antigrasp.report");
-  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["version"], 2);
   EXPECT_EQ(json["missing"][0], "no prior set");
   EXPECT_EQ(json["provenance"], Json::parse(R"([["commit", "abc"]])"));
   EXPECT_EQ(json["config"], "[cem]\n");

@@ -7,6 +7,7 @@
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/report/page/payload.h"
+#include "tests/report/page/inflated.h"
 #include "tests/support/temp_folder.h"
 
 namespace antigrasp {
@@ -160,8 +161,9 @@ TEST_F(TrialFolder, PutsReplaysIntoThePageAsTheyAre) {
       "held": 1, "executions": 3, "outcomes": [["slipped", 2], ["held", 1]]})"));
   TrialJson replay = trials["replays"][0];
   const std::size_t offset = replay["frames"][0], length = replay["frames"][1];
+  const std::string frames = Inflated(payload.blob.substr(offset, length), replay["frames"][2]);
   const TrialJson original = TrialJson::parse(kReplays)["replays"][0];
-  EXPECT_EQ(TrialJson::parse(payload.blob.substr(offset, length)), original["frames"]);
+  EXPECT_EQ(TrialJson::parse(frames), original["frames"]);
   replay["frames"] = original["frames"];
   replay["object"] = "mug";
   EXPECT_EQ(replay, original);

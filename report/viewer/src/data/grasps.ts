@@ -14,28 +14,35 @@ export interface Grasp {
   width: number;
 }
 
-const FLOATS = 17;
+const COLUMNS = 16,
+  RANGES = 8 * COLUMNS, // bytes: low and high of every column
+  GRASP = 4 + 2 * COLUMNS;
 
 function decodeGrasps(part: Part | null | undefined): Grasp[] {
   if (!part) return [];
   const bytes = bytesOf(part);
-  const view = new DataView(bytes.buffer);
-  const grasps: Grasp[] = [];
-  for (let g = 0; (g + 1) * FLOATS * 4 <= bytes.length; ++g) {
-    const at = (k: number) => view.getFloat32((g * FLOATS + k) * 4, true);
-    const vec = (k: number): Vec => [at(k), at(k + 1), at(k + 2)];
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
+  const count = Math.max(0, Math.floor((bytes.length - RANGES) / GRASP));
+  const ranges = 4 * count,
+    columns = ranges + RANGES;
+  const at = (k: number, g: number) => {
+    const low = view.getFloat32(ranges + 8 * k, true),
+      high = view.getFloat32(ranges + 8 * k + 4, true);
+    return low + (view.getUint16(columns + 2 * (k * count + g), true) / 65535) * (high - low);
+  };
+  return Array.from({ length: count }, (_, g) => {
+    const vec = (k: number): Vec => [at(k, g), at(k + 1, g), at(k + 2, g)];
     const approach = vec(12);
-    grasps.push({
+    return {
       p1: vec(0),
       p2: vec(3),
       n1: vec(6),
       n2: vec(9),
       approach: Math.hypot(...approach) > 0.5 ? approach : null,
-      quality: at(15),
-      width: at(16),
-    });
-  }
-  return grasps;
+      quality: view.getFloat32(4 * g, true),
+      width: at(15, g),
+    };
+  });
 }
 
 /** Grasps of a part, best quality first, as they are stored; none where they cannot be read (said on the console). */

@@ -4,8 +4,8 @@
 import type { Trials } from "./trials";
 
 export type Num = number | null;
-/** Byte offset and length of a part of the blob. */
-export type Part = [number, number];
+/** A part of the blob: where its stream begins, how long it is, how many bytes it becomes. */
+export type Part = [offset: number, length: number, size: number];
 
 export interface MeshRecord {
   vertices: number;
@@ -123,6 +123,8 @@ export interface Report {
   objects: ObjectRecord[];
 }
 
+const VERSION = 2;
+
 /** The report in this page; a sentence that says why there is none. */
 export function readReport(text: string): Report | string {
   let raw: Partial<Report> & { format?: string; version?: number };
@@ -135,7 +137,8 @@ export function readReport(text: string): Report | string {
     return "This is the empty page from which antigrasp makes reports: it holds no data. Write a report with: antigrasp report RUN --out report.html";
   }
   if (raw.format !== "antigrasp.report") return "The data in this page are not an antigrasp report.";
-  if (raw.version !== 1) return `This page reads reports of version 1; its data are of version ${String(raw.version)}.`;
+  if (raw.version !== VERSION)
+    return `This page reads reports of version ${VERSION}; its data are of version ${String(raw.version)}.`;
   const objects = raw.objects ?? [];
   const groups = raw.groups?.length ? raw.groups : [{ id: "objects", label: "objects" }];
   return {

@@ -77,7 +77,7 @@ export function exampleFigure(
   if (!rows.length) return null;
   const content = h("div", {});
   const host = h("div", { class: "examples-host" }, content);
-  const pictures = new TilePictures(host, shapes, true);
+  const pictures = new TilePictures(host, shapes);
   const tile = (row: Row, { object, shape, text }: Example) =>
     h(
       "a",
@@ -95,7 +95,7 @@ export function exampleFigure(
       MOST,
       Math.max(3, Math.floor((host.clientWidth - (host.clientWidth > 560 ? 118 : 0)) / WIDTH)),
     );
-    if (fit === columns) return pictures.invalidate();
+    if (fit === columns) return undefined;
     columns = fit;
     content.replaceChildren(
       ...rows.map((row) =>
@@ -120,7 +120,7 @@ export function exampleFigure(
     "section",
     { class: "figure wide" },
     h("h2", {}, report.kind === "perturbed" ? "Objects before and after" : "Objects"),
-    pictures.surface ? host : h("p", { class: "notice", role: "alert" }, NO_WEBGL),
+    pictures.available ? host : h("p", { class: "notice", role: "alert" }, NO_WEBGL),
     h(
       "p",
       { class: "note" },

@@ -160,7 +160,7 @@ export function galleryPage(report: Report): Page {
     pictures.watch([...content.querySelectorAll<HTMLElement>(".picture")]);
   };
   const controls = galleryControls(report, state, show, pictures);
-  const scrolled = () => pictures.invalidate();
+  const scrolled = () => pictures.scrolled();
   const stopScheme = onSchemeChange(() => pictures.restyle());
   listenToDrags(host, pictures);
   const main = h(
@@ -172,7 +172,7 @@ export function galleryPage(report: Report): Page {
       h("h1", { tabindex: -1 }, "Objects"),
       h("p", { class: "lead" }, "Drag an object to turn it, or use the arrow keys; click or press Enter to open it."),
     ),
-    pictures.surface ? null : h("p", { class: "notice", role: "alert" }, NO_WEBGL),
+    pictures.available ? null : h("p", { class: "notice", role: "alert" }, NO_WEBGL),
     report.objects.length ? null : h("p", { class: "notice" }, "This report holds no objects."),
     controls,
     status,
@@ -184,13 +184,11 @@ export function galleryPage(report: Report): Page {
     mounted: () => {
       show();
       window.addEventListener("scroll", scrolled, { passive: true });
-      window.addEventListener("resize", scrolled, { passive: true });
       if (state.scroll) window.scrollTo(0, state.scroll);
     },
     dispose: () => {
       state.scroll = window.scrollY;
       window.removeEventListener("scroll", scrolled);
-      window.removeEventListener("resize", scrolled);
       stopScheme();
       pictures.dispose();
     },

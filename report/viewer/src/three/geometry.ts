@@ -4,6 +4,8 @@ import type { Mesh } from "../data/mesh";
 // Edges sharper than this stay sharp; everything else is shaded smooth. Marching cubes chamfers the edges of a solid
 // over one or two triangles, so that an angle near 90 degrees never occurs in one step.
 const CREASE_DEGREES = 55;
+const LIMIT = Math.cos((CREASE_DEGREES * Math.PI) / 180);
+const HALF_LIMIT = Math.cos((CREASE_DEGREES * Math.PI) / 360);
 
 /** Geometry to draw, and for each of its vertices the mesh's vertex it came from. */
 export interface Shaded {
@@ -29,7 +31,7 @@ function faceNormals(mesh: Mesh): { unit: Float32Array; area: Float32Array } {
     const nx = uy * vz - uz * vy,
       ny = uz * vx - ux * vz,
       nz = ux * vy - uy * vx;
-    const length = Math.hypot(nx, ny, nz);
+    const length = Math.sqrt(nx * nx + ny * ny + nz * nz); // Math.hypot takes ten times as long
     area[f] = length;
     const scale = length > 0 ? 1 / length : 0;
     unit[3 * f] = nx * scale;
@@ -51,56 +53,79 @@ function cornersByVertex(mesh: Mesh): { start: Uint32Array; corners: Uint32Array
   return { start, corners };
 }
 
+// True when all faces around a vertex lie within half the crease angle of one direction, so that none of them turns
+// by more than the crease angle against another: nearly every vertex.
+function isSmooth(faces: Uint32Array, from: number, to: number, unit: Float32Array, [x, y, z]: number[]): boolean {
+  for (let i = from; i < to; ++i) {
+    const f = 3 * faces[i];
+    if (unit[f] * x + unit[f + 1] * y + unit[f + 2] * z < HALF_LIMIT) return false;
+  }
+  return true;
+}
+
 /**
  * Normals that are smooth except across creases. A corner's normal is the sum of its vertex' faces that turn by less
  * than the crease angle, weighted by area; a vertex is split only where its corners disagree, so that most stay shared.
  */
 export function shade(mesh: Mesh): Shaded {
-  const limit = Math.cos((CREASE_DEGREES * Math.PI) / 180);
   const { unit, area } = faceNormals(mesh);
   const { start, corners } = cornersByVertex(mesh);
-  const positions: number[] = [];
-  const normals: number[] = [];
-  const source: number[] = [];
-  const index = new Uint32Array(mesh.indices.length);
+  const faces = corners.map((corner) => Math.floor(corner / 3));
+  const most = mesh.indices.length; // copies: no more than corners
+  const positions = new Float32Array(3 * most);
+  const normals = new Float32Array(3 * most);
+  const source = new Uint32Array(most);
+  const index = new Uint32Array(most);
+  let count = 0;
+  const sum = [0, 0, 0];
+  // Unit sum of the normals, by area, of the faces that turn by less than the crease angle against `face`; -1: of all.
+  const normalOf = (from: number, to: number, face: number): void => {
+    let nx = 0,
+      ny = 0,
+      nz = 0;
+    for (let i = from; i < to; ++i) {
+      const g = faces[i];
+      const x = unit[3 * g],
+        y = unit[3 * g + 1],
+        z = unit[3 * g + 2];
+      if (face >= 0 && g !== face && unit[3 * face] * x + unit[3 * face + 1] * y + unit[3 * face + 2] * z < LIMIT)
+        continue;
+      nx += area[g] * x;
+      ny += area[g] * y;
+      nz += area[g] * z;
+    }
+    const scale = 1 / (Math.sqrt(nx * nx + ny * ny + nz * nz) || 1);
+    sum[0] = nx * scale;
+    sum[1] = ny * scale;
+    sum[2] = nz * scale;
+  };
+  // The copy of vertex v with this normal: one of those since `first`, or a new one.
+  const copyOf = (v: number, first: number): number => {
+    const [x, y, z] = sum;
+    for (let i = first; i < count; ++i)
+      if (x * normals[3 * i] + y * normals[3 * i + 1] + z * normals[3 * i + 2] >= 0.9999) return i;
+    source[count] = v;
+    for (let k = 0; k < 3; ++k) {
+      positions[3 * count + k] = mesh.positions[3 * v + k];
+      normals[3 * count + k] = sum[k];
+    }
+    return count++;
+  };
   for (let v = 0; v + 1 < start.length; ++v) {
-    const firstCopy = source.length;
-    for (let i = start[v]; i < start[v + 1]; ++i) {
-      const f = Math.floor(corners[i] / 3);
-      let nx = 0,
-        ny = 0,
-        nz = 0;
-      for (let j = start[v]; j < start[v + 1]; ++j) {
-        const g = Math.floor(corners[j] / 3);
-        const cosine =
-          unit[3 * f] * unit[3 * g] + unit[3 * f + 1] * unit[3 * g + 1] + unit[3 * f + 2] * unit[3 * g + 2];
-        if (g !== f && cosine < limit) continue;
-        nx += area[g] * unit[3 * g];
-        ny += area[g] * unit[3 * g + 1];
-        nz += area[g] * unit[3 * g + 2];
-      }
-      const scale = 1 / (Math.hypot(nx, ny, nz) || 1);
-      nx *= scale;
-      ny *= scale;
-      nz *= scale;
-      let copy = firstCopy;
-      while (
-        copy < source.length &&
-        nx * normals[3 * copy] + ny * normals[3 * copy + 1] + nz * normals[3 * copy + 2] < 0.9999
-      )
-        ++copy;
-      if (copy === source.length) {
-        source.push(v);
-        positions.push(mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]);
-        normals.push(nx, ny, nz);
-      }
-      index[corners[i]] = copy;
+    const first = count;
+    const from = start[v],
+      to = start[v + 1];
+    normalOf(from, to, -1);
+    const smooth = isSmooth(faces, from, to, unit, sum);
+    for (let i = from; i < to; ++i) {
+      if (!smooth) normalOf(from, to, faces[i]);
+      index[corners[i]] = smooth && i > from ? first : copyOf(v, first);
     }
   }
   const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
-  geometry.setAttribute("normal", new BufferAttribute(new Float32Array(normals), 3));
-  geometry.setIndex(new BufferAttribute(index, 1));
+  geometry.setAttribute("position", new BufferAttribute(positions.slice(0, 3 * count), 3));
+  geometry.setAttribute("normal", new BufferAttribute(normals.slice(0, 3 * count), 3));
+  geometry.setIndex(new BufferAttribute(count < 65536 ? new Uint16Array(index) : index, 1));
   geometry.computeBoundingSphere();
-  return { geometry, source: new Uint32Array(source) };
+  return { geometry, source: source.slice(0, count) };
 }

@@ -15,7 +15,8 @@ export const NO_WEBGL =
 // Browsers allow a page few WebGL contexts, and a new one compiles every shader again: all pages share this one.
 let renderer: WebGLRenderer | null | undefined;
 
-function sharedRenderer(): WebGLRenderer | null {
+/** null without WebGL. Its canvas lies where its last user put it. */
+export function sharedRenderer(): WebGLRenderer | null {
   if (renderer !== undefined) return renderer;
   try {
     const canvas = document.createElement("canvas");
@@ -33,6 +34,17 @@ function sharedRenderer(): WebGLRenderer | null {
   return renderer;
 }
 
+/** Canvas pixels a CSS pixel. */
+export function pixelRatio(): number {
+  return Math.min(window.devicePixelRatio || 1, 2);
+}
+
+/** When objects were first on the screen, for the browser's own performance tools and the tests. */
+export function markObjects(): void {
+  const name = "antigrasp-first-objects";
+  if (!performance.getEntriesByName(name).length) performance.mark(name);
+}
+
 /**
  * The shared canvas laid over `host`: draws every view into the rectangle of its element. Nothing is drawn until
  * invalidate() asks for a frame, so that a still page costs nothing.
@@ -40,15 +52,13 @@ function sharedRenderer(): WebGLRenderer | null {
 export class Surface {
   readonly canvas: HTMLCanvasElement;
   private frame = 0;
-  private marked = false;
   private readonly renderer: WebGLRenderer;
   private readonly resize: ResizeObserver;
 
   private constructor(
     renderer: WebGLRenderer,
-    host: HTMLElement,
+    private readonly host: HTMLElement,
     private readonly views: () => Iterable<View>,
-    private readonly place: (canvas: HTMLCanvasElement) => { width: number; height: number },
   ) {
     this.renderer = renderer;
     this.canvas = renderer.domElement;
@@ -57,24 +67,10 @@ export class Surface {
     this.resize.observe(host);
   }
 
-  /** null without WebGL. `place` moves the canvas and says how large it is, CSS pixels; left out: it fills the host. */
-  static over(
-    host: HTMLElement,
-    views: () => Iterable<View>,
-    place?: (canvas: HTMLCanvasElement) => { width: number; height: number },
-  ): Surface | null {
+  /** null without WebGL. */
+  static over(host: HTMLElement, views: () => Iterable<View>): Surface | null {
     const shared = sharedRenderer();
-    if (!shared) return null;
-    return new Surface(
-      shared,
-      host,
-      views,
-      place ??
-        ((canvas) => {
-          canvas.style.transform = "";
-          return { width: host.clientWidth, height: host.clientHeight };
-        }),
-    );
+    return shared && new Surface(shared, host, views);
   }
 
   invalidate(): void {
@@ -88,9 +84,9 @@ export class Surface {
   }
 
   draw(): void {
-    const { width, height } = this.place(this.canvas);
+    const { clientWidth: width, clientHeight: height } = this.host;
     if (width === 0 || height === 0) return;
-    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const ratio = pixelRatio();
     const w = Math.round(width * ratio),
       hgt = Math.round(height * ratio);
     if (this.canvas.width !== w || this.canvas.height !== hgt) {
@@ -114,14 +110,7 @@ export class Surface {
       this.renderer.render(view.scene, view.camera);
       ++drawn;
     }
-    if (drawn) this.markFirst();
-  }
-
-  // When objects were first on the screen, for the browser's own performance tools and the tests.
-  private markFirst(): void {
-    if (this.marked) return;
-    this.marked = true;
-    performance.mark("antigrasp-first-objects");
+    if (drawn) markObjects();
   }
 
   /** The canvas as PNG. Drawn in the same turn, because a canvas forgets its picture once it has been shown. */

@@ -6,11 +6,13 @@ import {
   PerspectiveCamera,
   DoubleSide,
 } from "three";
+import { hasArrived } from "../data/blob";
 import { meshOf } from "../data/mesh";
 import type { Shape } from "../data/report";
 import { shade } from "./geometry";
+import { Pace } from "./pace";
 import { cssColour, litScene } from "./scene";
-import { Surface, type View } from "./surface";
+import { markObjects, pixelRatio, sharedRenderer } from "./surface";
 
 export interface Turn {
   yaw: number;
@@ -18,41 +20,54 @@ export interface Turn {
 }
 
 const START: Turn = { yaw: -0.55, pitch: 0 };
-// Time for decoding per frame: little, so that scrolling stays fluid while objects arrive; more where drawing itself is
-// slow (no GPU), or the last object would come late.
-const DECODE_MS = 10,
-  MOST_DECODE_MS = 150,
-  FIRST_DECODE_MS = 80;
+// Time for decoding and drawing per frame: little while the page is scrolled, which must stay fluid; more where
+// nothing moves, or the last object would come late.
+const SCROLLING_MS = 6,
+  RESTING_MS = 60,
+  REST_AFTER_MS = 150;
 const KEEP_GEOMETRIES = 200;
-const MARGIN = 240; // how far the canvas reaches beyond the window, so that scrolling finds it drawn
+const KEEP_PICTURES = 300;
+const MARGIN = 500; // how far beyond the window objects are drawn, so that scrolling finds them there
+
+/** What is on the page for one object. */
+interface Picture {
+  element: HTMLElement;
+  object: number;
+  /** Made when it is first drawn. */
+  canvas: HTMLCanvasElement | null;
+  drawn: boolean;
+}
 
 /**
- * Draws the shapes whose pictures are on the screen: elements with the shape's index as data-object. `whole`: all of
- * them at once, for a host that is no higher than a screen or two.
+ * Draws shapes into elements with the shape's index as data-object, each into a canvas of its own, once: scrolling
+ * moves finished pictures. Elements that come near the window are drawn, those in it first.
  */
 export class TilePictures {
   together = true;
+  /** False without WebGL: nothing is drawn. */
+  readonly available: boolean;
+  private readonly renderer = sharedRenderer();
+  private readonly pace = this.renderer && new Pace(this.renderer.getContext() as WebGL2RenderingContext);
   private readonly camera = new PerspectiveCamera(27, 1, 0.1, 20);
   private readonly lit = litScene();
   private readonly pivot = new Group();
   private readonly body: ThreeMesh;
   private readonly material = new MeshStandardMaterial({ roughness: 0.62, metalness: 0, side: DoubleSide });
   private readonly geometries = new Map<number, BufferGeometry | null>();
-  private readonly visible = new Map<Element, number>();
+  private readonly pictures = new Map<Element, Picture>();
+  private readonly near = new Set<Picture>();
   private readonly observer: IntersectionObserver;
+  private readonly resize: ResizeObserver;
   private readonly turns = new Map<number, Turn>();
   private shared: Turn = { ...START };
-  private deadline = 0;
-  private lastFrame = 0;
-  private fresh = true;
-  private waiting = false;
-  readonly surface: Surface | null;
+  private frame = 0;
+  private scrolledAt = -Infinity;
 
   constructor(
     private readonly host: HTMLElement,
     private readonly shapes: Shape[],
-    private readonly whole = false,
   ) {
+    this.available = this.renderer !== null;
     this.camera.up.set(0, 0, 1);
     this.camera.position.set(0, -4.1, 1.75);
     this.camera.lookAt(0, 0, 0);
@@ -60,39 +75,33 @@ export class TilePictures {
     this.body = new ThreeMesh(undefined, this.material);
     this.pivot.add(this.body);
     this.lit.scene.add(this.pivot);
+    host.classList.add("pictured");
+    this.observer = new IntersectionObserver((entries) => this.moved(entries), { rootMargin: `${MARGIN}px 0px` });
+    this.resize = new ResizeObserver(() => this.redraw());
+    this.resize.observe(host);
     this.restyle();
-    this.observer = new IntersectionObserver(
-      (entries) => {
-        for (const { target, isIntersecting } of entries) {
-          if (isIntersecting) this.visible.set(target, Number((target as HTMLElement).dataset.object));
-          else this.visible.delete(target);
-        }
-        this.invalidate();
-      },
-      { rootMargin: `${MARGIN}px 0px` },
-    );
-    this.surface = Surface.over(
-      host,
-      () => this.views(),
-      (canvas) => this.place(canvas),
-    );
   }
 
   restyle(): void {
     this.material.color = cssColour("--clay");
-    this.invalidate();
+    this.redraw();
   }
 
   /** The pictures now on the page. */
-  watch(pictures: HTMLElement[]): void {
+  watch(elements: HTMLElement[]): void {
     this.observer.disconnect();
-    this.visible.clear();
-    this.fresh = true;
-    for (const picture of pictures) {
-      if (this.whole) this.visible.set(picture, Number(picture.dataset.object));
-      else this.observer.observe(picture);
+    this.pictures.clear();
+    this.near.clear();
+    for (const element of elements) {
+      this.pictures.set(element, { element, object: Number(element.dataset.object), canvas: null, drawn: false });
+      this.observer.observe(element);
     }
     this.invalidate();
+  }
+
+  /** The page has been scrolled: what is drawn next must not hold it up. */
+  scrolled(): void {
+    this.scrolledAt = performance.now();
   }
 
   turn(object: number, yaw: number, pitch: number): void {
@@ -101,62 +110,131 @@ export class TilePictures {
     turn.pitch = Math.min(1.4, Math.max(-1.4, turn.pitch + pitch));
     if (this.together) this.turns.clear();
     else this.turns.set(object, turn);
-    this.invalidate();
+    this.redraw(this.together ? undefined : object);
   }
 
   resetTurns(): void {
     this.shared = { ...START };
     this.turns.clear();
-    this.invalidate();
-  }
-
-  invalidate(): void {
-    this.surface?.invalidate();
+    this.redraw();
   }
 
   dispose(): void {
+    cancelAnimationFrame(this.frame);
+    this.frame = -1; // no later call may ask for a frame
     this.observer.disconnect();
-    this.surface?.dispose();
+    this.resize.disconnect();
     for (const geometry of this.geometries.values()) geometry?.dispose();
     this.material.dispose();
   }
 
+  private redraw(object?: number): void {
+    for (const picture of this.pictures.values())
+      if (object === undefined || picture.object === object) picture.drawn = false;
+    this.invalidate();
+  }
+
+  private invalidate(): void {
+    if (this.frame || !this.renderer) return;
+    this.host.dataset.busy = "";
+    this.frame = requestAnimationFrame((now) => {
+      this.frame = 0;
+      if (this.draw(now)) delete this.host.dataset.busy;
+      else this.invalidate();
+    });
+  }
+
+  private moved(entries: IntersectionObserverEntry[]): void {
+    for (const { target, isIntersecting } of entries) {
+      const picture = this.pictures.get(target)!;
+      if (isIntersecting) this.near.add(picture);
+      else this.near.delete(picture);
+    }
+    this.invalidate();
+  }
+
+  /** True when nothing is left to draw. */
+  private draw(began: number): boolean {
+    const scrolling = began - this.scrolledAt < REST_AFTER_MS;
+    const budget = scrolling ? SCROLLING_MS : RESTING_MS;
+    const start = performance.now();
+    if (!this.pace!.ready(start, scrolling)) return false;
+    const waiting = this.waiting();
+    let left = waiting.length;
+    for (const picture of waiting) {
+      if (performance.now() - start > budget) break;
+      const shape = this.shapes[picture.object];
+      if (shape.mesh && !(hasArrived(shape.mesh.positions) && hasArrived(shape.mesh.indices))) continue;
+      const geometry = this.geometry(picture.object);
+      // Making the geometry may have taken all the time there is: then it is drawn in the next frame.
+      if (geometry && performance.now() - start > budget) break;
+      if (geometry) this.paint(picture, geometry);
+      picture.drawn = true;
+      --left;
+    }
+    if (left < waiting.length) this.pace!.handed(start);
+    return left === 0;
+  }
+
+  // Those that are to be drawn, the nearest to the window first.
+  private waiting(): Picture[] {
+    const missing = [...this.near].filter((picture) => !picture.drawn);
+    if (missing.length < 2) return missing;
+    const height = window.innerHeight;
+    const away = (picture: Picture) => {
+      const { top, bottom } = picture.element.getBoundingClientRect();
+      return Math.max(0, top - height, -bottom);
+    };
+    const distances = new Map(missing.map((picture) => [picture, away(picture)]));
+    return missing.sort((a, b) => distances.get(a)! - distances.get(b)!);
+  }
+
+  private paint(picture: Picture, geometry: BufferGeometry): void {
+    const renderer = this.renderer!;
+    const { clientWidth: width, clientHeight: height } = picture.element;
+    if (width < 2 || height < 2) return;
+    const ratio = pixelRatio();
+    const source = renderer.domElement;
+    if (source.width !== Math.floor(width * ratio) || source.height !== Math.floor(height * ratio)) {
+      renderer.setPixelRatio(ratio);
+      renderer.setSize(width, height);
+    }
+    this.pose(picture.object, geometry, width / height);
+    renderer.setClearColor(0x000000, 0);
+    renderer.setViewport(0, 0, width, height);
+    renderer.setScissor(0, 0, width, height);
+    renderer.render(this.lit.scene, this.camera);
+    const canvas = (picture.canvas ??= this.canvasIn(picture));
+    if (canvas.width !== source.width) canvas.width = source.width;
+    if (canvas.height !== source.height) canvas.height = source.height;
+    const context = canvas.getContext("2d")!;
+    context.globalCompositeOperation = "copy";
+    context.drawImage(source, 0, 0);
+    markObjects();
+  }
+
+  private canvasIn({ element }: Picture): HTMLCanvasElement {
+    const canvas = document.createElement("canvas");
+    canvas.setAttribute("aria-hidden", "true"); // what it shows is said by the element around it
+    element.prepend(canvas);
+    this.forget();
+    return canvas;
+  }
+
+  // Pictures far from the window are drawn again when they come back.
+  private forget(): void {
+    const drawn = [...this.pictures.values()].filter((picture) => picture.canvas);
+    if (drawn.length < KEEP_PICTURES) return;
+    for (const picture of drawn) {
+      if (this.near.has(picture)) continue;
+      picture.canvas!.remove();
+      picture.canvas = null;
+      picture.drawn = false;
+    }
+  }
+
   private turnOf(object: number): Turn {
     return this.turns.get(object) ?? { ...this.shared };
-  }
-
-  // The canvas is as high as the window and its margins, and slides inside the host: a canvas over all 500 tiles
-  // would be larger than browsers allow.
-  private place(canvas: HTMLCanvasElement): { width: number; height: number } {
-    const box = this.host.getBoundingClientRect();
-    const height = this.whole
-      ? this.host.clientHeight
-      : Math.min(this.host.clientHeight, window.innerHeight + 2 * MARGIN);
-    const top = Math.round(Math.min(Math.max(0, -box.top - MARGIN), this.host.clientHeight - height));
-    canvas.style.transform = `translateY(${top}px)`;
-    const now = performance.now();
-    const interval = this.waiting ? now - this.lastFrame : 0;
-    this.deadline =
-      now +
-      Math.min(MOST_DECODE_MS, Math.max(this.fresh && this.visible.size ? FIRST_DECODE_MS : DECODE_MS, 0.6 * interval));
-    if (this.visible.size) this.fresh = false;
-    this.lastFrame = now;
-    this.waiting = false;
-    return { width: this.host.clientWidth, height };
-  }
-
-  private *views(): Iterable<View> {
-    for (const [element, object] of this.visible) {
-      const geometry = this.geometry(object);
-      if (!geometry) continue;
-      yield {
-        element: element as HTMLElement,
-        scene: this.lit.scene,
-        camera: this.camera,
-        prepare: (width, height) => this.pose(object, geometry, width / height),
-      };
-    }
-    if (this.waiting) this.invalidate();
   }
 
   private pose(object: number, geometry: BufferGeometry, aspect: number): void {
@@ -178,14 +256,10 @@ export class TilePictures {
       this.geometries.set(object, known);
       return known;
     }
-    if (performance.now() > this.deadline) {
-      this.waiting = true;
-      return null;
-    }
     const mesh = meshOf(this.shapes[object]);
     const geometry = mesh ? shade(mesh).geometry : null;
     this.geometries.set(object, geometry);
-    if (this.geometries.size > Math.max(KEEP_GEOMETRIES, 2 * this.visible.size)) {
+    if (this.geometries.size > Math.max(KEEP_GEOMETRIES, 2 * this.near.size)) {
       const [oldest, unused] = this.geometries.entries().next().value!;
       unused?.dispose();
       this.geometries.delete(oldest);

@@ -84,17 +84,36 @@ export function frames(page) {
   return page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 }
 
-/** Waits until the shared canvas has drawn all there is to draw. */
+/** Waits until all there is to draw has been drawn. */
 export function settled(page) {
   return page.evaluate(async () => {
     const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
     // Observers of sizes and of what is on the screen report between frames and may ask for another one.
     for (let quiet = 0; quiet < 2;) {
       await frame();
-      const canvas = document.querySelector("canvas.surface");
-      quiet = canvas && canvas.dataset.busy === undefined ? quiet + 1 : 0;
+      const drawn = document.querySelector("canvas.surface, .pictured");
+      quiet = drawn && !document.querySelector("[data-busy]") ? quiet + 1 : 0;
     }
   });
+}
+
+/** Scrolls down evenly for some seconds; how many frames the second with the fewest of them had. */
+export function poorestSecond(page, { seconds = 3, speed = 1200 } = {}) {
+  return page.evaluate(
+    async ([duration, pixels]) => {
+      const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+      window.scrollTo(0, 0);
+      const times = [await frame()];
+      const from = times[0];
+      while (times.at(-1) - from < duration) {
+        window.scrollTo(0, (pixels * (times.at(-1) - from)) / 1000);
+        times.push(await frame());
+      }
+      const windows = times.filter((t) => t + 1000 <= times.at(-1));
+      return Math.min(...windows.map((t) => times.filter((u) => u > t && u <= t + 1000).length));
+    },
+    [1000 * seconds, speed],
+  );
 }
 
 /** Goes to a page of the report and waits until it is there. */

@@ -1,11 +1,12 @@
 // Reports built in code: what the binary cannot be made to write (hostile names, missing numbers), and five hundred
 // objects in a second. Everything else is tested with reports of the binary itself.
 import { readFileSync } from "node:fs";
+import { deflateRawSync } from "node:zlib";
 import { MeshoptEncoder } from "meshoptimizer/encoder";
 
 await MeshoptEncoder.ready;
 
-/** Collects parts at multiples of four, as the binary does. */
+/** Collects deflated parts one after the other, as the binary does. */
 export class Blob {
   constructor() {
     this.chunks = [];
@@ -13,15 +14,37 @@ export class Blob {
   }
 
   add(bytes) {
-    const part = [this.length, bytes.length];
-    this.chunks.push(Buffer.from(bytes), Buffer.alloc((4 - (bytes.length % 4)) % 4));
-    this.length += Math.ceil(bytes.length / 4) * 4;
-    return part;
+    const stream = deflateRawSync(bytes, { level: 9 });
+    return [...this.addStored(stream), bytes.length];
   }
 
-  base64() {
-    return Buffer.concat(this.chunks).toString("base64");
+  /** Bytes as they are: of no stream, or of a hostile one. */
+  addStored(bytes) {
+    const place = [this.length, bytes.length];
+    this.chunks.push(Buffer.from(bytes));
+    this.length += bytes.length;
+    return place;
   }
+
+  /** The base64 text of every script element. */
+  pieces(most = 3 << 16) {
+    const bytes = Buffer.concat(this.chunks);
+    return Array.from({ length: Math.max(1, Math.ceil(bytes.length / most)) }, (_, i) =>
+      bytes.subarray(i * most, (i + 1) * most).toString("base64"),
+    );
+  }
+}
+
+/** Numbers of grasps, 17 each (contacts, normals, approach, quality, width), in the bytes of the contract. */
+export function packGrasps(rows) {
+  const columns = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 16].map((k) => rows.map((row) => row[k]));
+  const low = columns.map((column) => Math.min(...column)),
+    high = columns.map((column) => Math.max(...column));
+  const q = columns.flatMap((column, k) =>
+    column.map((x) => (high[k] > low[k] ? Math.round((65535 * (x - low[k])) / (high[k] - low[k])) : 0)),
+  );
+  const floats = [...rows.map((row) => row[15]), ...low.flatMap((x, k) => [x, high[k]])];
+  return Buffer.concat([Buffer.from(Float32Array.from(floats).buffer), Buffer.from(Uint16Array.from(q).buffer)]);
 }
 
 /** A closed surface around the origin: radius(x, y, z) in the direction of a unit vector, an n x 2n grid. */
@@ -81,7 +104,7 @@ export function meshRecord(blob, { positions, indices }) {
 
 /** Grasps through the centre of a star-shaped object, best first. */
 export function graspPart(blob, radius, count) {
-  const floats = new Float32Array(17 * count);
+  const rows = [];
   for (let g = 0; g < count; ++g) {
     const p = g * 2.399963,
       z = 0.8 * Math.sin(g * 1.3),
@@ -90,20 +113,17 @@ export function graspPart(blob, radius, count) {
     const up = [-Math.sin(p), Math.cos(p), 0];
     const r1 = radius(...d.map((x) => -x)),
       r2 = radius(...d);
-    floats.set(
-      [
-        ...d.map((x) => -r1 * x),
-        ...d.map((x) => r2 * x),
-        ...d.map((x) => -x),
-        ...d,
-        ...up,
-        0.0025 * (1 - g / count),
-        r1 + r2,
-      ],
-      17 * g,
-    );
+    rows.push([
+      ...d.map((x) => -r1 * x),
+      ...d.map((x) => r2 * x),
+      ...d.map((x) => -x),
+      ...d,
+      ...up,
+      0.0025 * (1 - g / count),
+      r1 + r2,
+    ]);
   }
-  return blob.add(new Uint8Array(floats.buffer));
+  return blob.add(packGrasps(rows));
 }
 
 export const score = (g, more = {}) => ({
@@ -139,7 +159,7 @@ export const METRIC = {
 export function emptyReport(more = {}) {
   return {
     format: "antigrasp.report",
-    version: 1,
+    version: 2,
     title: "runs/test",
     kind: "run",
     missing: [],
@@ -201,6 +221,7 @@ export const GROUPS = ["prior set", "episode 0", "episode 1", "episode 2", "epis
 
 /** Fills the template as the binary does. */
 export function fill(templatePath, report, blob) {
+  const between = '</script>\n<script type="application/octet-stream" class="antigrasp-blob">';
   const json = JSON.stringify(report).replace(
     /[<>&\u007f-\uffff]/g,
     (c) => `\\u${c.charCodeAt(0).toString(16).padStart(4, "0")}`,
@@ -208,6 +229,6 @@ export function fill(templatePath, report, blob) {
   const title = report.title.replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
   return readFileSync(templatePath, "utf8")
     .replace('"ANTIGRASP_REPORT_JSON"', () => json)
-    .replace("ANTIGRASP_BLOB_BASE64", () => (blob ? blob.base64() : ""))
+    .replace("ANTIGRASP_BLOB_BASE64", () => (blob ? blob.pieces().join(between) : ""))
     .replace("ANTIGRASP_TITLE", () => title);
 }
