@@ -1,7 +1,18 @@
 // Five hundred objects, made in a second, how the gallery scrolls over them, and the blob that holds them.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { expectQuiet, go, launch, open, poorestSecond, settled, TEMPLATE, writeReport } from "./support/browser.mjs";
+import {
+  expectQuiet,
+  go,
+  heading,
+  launch,
+  open,
+  poorestSecond,
+  settled,
+  TEMPLATE,
+  writeReport,
+} from "./support/browser.mjs";
 import { Blob, bumpy, emptyReport, fill, GROUPS, meshRecord, objects } from "./support/payload.mjs";
 import { picture } from "./support/looks.mjs";
 import { difference, ink } from "./support/png.mjs";
@@ -47,6 +58,17 @@ test("five hundred objects are on the screen within five seconds, and scrolling 
     [...scores].sort((a, b) => a - b),
   );
   assert.ok(ink(await picture(page, ".tile .picture")) > 0.05);
+  await expectQuiet(page);
+});
+
+test("the program runs before the geometry is read, and the page of an object waits for it", async () => {
+  const html = readFileSync(TEMPLATE, "utf8");
+  assert.ok(!/type="module"/.test(html));
+  assert.ok(html.indexOf("antigrasp-report") < html.indexOf("<script>(() =>"));
+  assert.ok(html.indexOf("<script>(() =>") < html.indexOf('class="antigrasp-blob"'));
+  const page = await open(browser, fiveHundred(), { hash: "#/object/499" });
+  await heading(page, "sample-000499");
+  assert.ok(ink(await picture(page, ".panel-picture")) > 0.05);
   await expectQuiet(page);
 });
 

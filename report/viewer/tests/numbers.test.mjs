@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
 import { expectQuiet, go, launch, open, slide, TEMPLATE, writeReport } from "./support/browser.mjs";
-import { Blob, emptyReport, fill, meshRecord, score, stage } from "./support/payload.mjs";
+import { Blob, emptyReport, fill, meshRecord, packGrasps, score, stage } from "./support/payload.mjs";
 import { cuboidParts } from "./support/sources.mjs";
 
 let browser;
@@ -231,7 +231,7 @@ describe("perturbed objects", () => {
     const blob = new Blob();
     const mesh = meshRecord(blob, cuboidParts([0.1, 0.2, 0.4]));
     const grasp = [0, 0.2, 0, 0, -0.2, 0, 0, 1, 0, 0, -1, 0, 1, 0, 0, 0.003, 0.4];
-    const grasps = blob.add(new Uint8Array(Float32Array.from(grasp).buffer));
+    const grasps = blob.add(packGrasps([grasp]));
     const displacement = blob.add(new Uint8Array(8));
     const side = (g, more) => ({ label: "was", score: score(g), mesh, metres_per_unit: 0.05, grasps: null, ...more });
     const report = emptyReport({

@@ -1,4 +1,5 @@
 import { details, h, table } from "../dom";
+import { afterFirstObjects } from "../early";
 
 export interface Numbers {
   header: string[];
@@ -24,7 +25,7 @@ export function figure({ title, caption, legend, draw, numbers, className }: Fig
     const width = Math.floor(holder.clientWidth);
     if (width === drawn || width === 0) return;
     drawn = width;
-    holder.replaceChildren(draw(width));
+    afterFirstObjects(() => holder.replaceChildren(draw(width)));
   }).observe(holder);
   return h(
     "section",

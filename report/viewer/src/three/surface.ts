@@ -1,4 +1,5 @@
 import { type Camera, type Scene, SRGBColorSpace, WebGLRenderer } from "three";
+import { firstObjectsDrawn } from "../early";
 
 /** One picture inside the canvas: where it belongs on the page, and what it shows. */
 export interface View {
@@ -37,12 +38,6 @@ export function sharedRenderer(): WebGLRenderer | null {
 /** Canvas pixels a CSS pixel. */
 export function pixelRatio(): number {
   return Math.min(window.devicePixelRatio || 1, 2);
-}
-
-/** When objects were first on the screen, for the browser's own performance tools and the tests. */
-export function markObjects(): void {
-  const name = "antigrasp-first-objects";
-  if (!performance.getEntriesByName(name).length) performance.mark(name);
 }
 
 /**
@@ -110,7 +105,7 @@ export class Surface {
       this.renderer.render(view.scene, view.camera);
       ++drawn;
     }
-    if (drawn) markObjects();
+    if (drawn) firstObjectsDrawn();
   }
 
   /** The canvas as PNG. Drawn in the same turn, because a canvas forgets its picture once it has been shown. */

@@ -9,10 +9,11 @@ import {
 import { hasArrived } from "../data/blob";
 import { meshOf } from "../data/mesh";
 import type { Shape } from "../data/report";
+import { firstObjectsDrawn } from "../early";
 import { shade } from "./geometry";
 import { Pace } from "./pace";
 import { cssColour, litScene } from "./scene";
-import { markObjects, pixelRatio, sharedRenderer } from "./surface";
+import { pixelRatio, sharedRenderer } from "./surface";
 
 export interface Turn {
   yaw: number;
@@ -62,6 +63,7 @@ export class TilePictures {
   private shared: Turn = { ...START };
   private frame = 0;
   private scrolledAt = -Infinity;
+  private width = 0; // of the host when its pictures were drawn
 
   constructor(
     private readonly host: HTMLElement,
@@ -77,7 +79,10 @@ export class TilePictures {
     this.lit.scene.add(this.pivot);
     host.classList.add("pictured");
     this.observer = new IntersectionObserver((entries) => this.moved(entries), { rootMargin: `${MARGIN}px 0px` });
-    this.resize = new ResizeObserver(() => this.redraw());
+    this.resize = new ResizeObserver(() => {
+      if (this.width !== host.clientWidth) this.redraw();
+      this.width = host.clientWidth;
+    });
     this.resize.observe(host);
     this.restyle();
   }
@@ -167,7 +172,7 @@ export class TilePictures {
       if (shape.mesh && !(hasArrived(shape.mesh.positions) && hasArrived(shape.mesh.indices))) continue;
       const geometry = this.geometry(picture.object);
       // Making the geometry may have taken all the time there is: then it is drawn in the next frame.
-      if (geometry && performance.now() - start > budget) break;
+      if (geometry && scrolling && performance.now() - start > budget) break;
       if (geometry) this.paint(picture, geometry);
       picture.drawn = true;
       --left;
@@ -210,7 +215,7 @@ export class TilePictures {
     const context = canvas.getContext("2d")!;
     context.globalCompositeOperation = "copy";
     context.drawImage(source, 0, 0);
-    markObjects();
+    firstObjectsDrawn();
   }
 
   private canvasIn({ element }: Picture): HTMLCanvasElement {
