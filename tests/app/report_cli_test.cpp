@@ -89,7 +89,7 @@ TEST(ReportCli, ShowsObjectsWithTheScoresOfEvaluateAndTheBrokenOnesToo) {
     EXPECT_EQ(object["print"].is_null(), name == "noise.off") << name;
     if (scored) {
       EXPECT_EQ(object["score"]["graspability"], scores.at(name)) << name;
-      EXPECT_EQ(object["grasps"][1], 10 * 17 * 4);
+      EXPECT_EQ(object["grasps"][2], 10 * 36 + 128);
       EXPECT_EQ(object["status"], "ok");
       EXPECT_EQ(object["print"]["watertight"], true);
       const auto size = object["print"]["size_mm"].get<std::vector<double>>();
