@@ -336,7 +336,7 @@ TEST(ReportCli, ShowsPerturbedObjectsBesideTheirOriginals) {
     EXPECT_EQ(pair["score"]["graspability"], before.at(name));
     EXPECT_EQ(pair["label"], "before");
     EXPECT_GT(pair["max_displacement"], 0.0);
-    EXPECT_EQ(pair["displacement"][1], object["mesh"]["vertices"]);
+    EXPECT_EQ(pair["displacement"][2], object["mesh"]["vertices"]);
     EXPECT_FALSE(pair["grasps"].is_null());
     EXPECT_GT(object["numbers"].size(), 8u);
   }
