@@ -19,19 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void DescribeShapeSet(const fs::path& path) {
-  std::printf("%s: %s", path.c_str(), ShapeFileText(ReadShapeSetInfo(path)).c_str());
-}
-
-void DescribeMesh(const fs::path& path) {
-  const MeshFile file = ReadMeshFile(path);
-  std::printf("%s: mesh, %zu vertices, %zu faces\n", path.c_str(), file.mesh.vertices.size(),
-              file.mesh.faces.size());
-  if (file.unit) std::printf("  unit               %s\n", file.unit->name.c_str());
-  for (const std::string& note : file.notes) std::printf("  note               %s\n", note.c_str());
-  std::fputs(MeshText(file.mesh).c_str(), stdout);
-}
-
 void DescribePerturbed(const InfoFlags& flags) {
   const std::vector<PerturbRow> rows = ReadPerturbTable(fs::path(flags.path) / "perturb.csv");
   const PerturbMeans means = MeansOf(rows);
@@ -57,10 +44,10 @@ void Describe(const InfoFlags& flags) {
   const fs::path path(flags.path);
   if (IsHdf5(path) || IsShapeSet(path)) {
     flags.RefuseTable();
-    DescribeShapeSet(path);
+    std::printf("%s: %s", path.c_str(), ShapeFileText(ReadShapeSetInfo(path)).c_str());
   } else if (fs::is_regular_file(path) && IsMeshFile(path)) {
     flags.RefuseTable();
-    DescribeMesh(path);
+    std::printf("%s: %s", path.c_str(), MeshFileText(ReadMeshFile(path)).c_str());
   } else if (fs::is_regular_file(path / "perturb.csv")) {
     DescribePerturbed(flags);
   } else if (fs::is_regular_file(path / "means.csv")) {

@@ -20,12 +20,11 @@ namespace {
 
 char** g_arguments = nullptr;
 constexpr int kKeepTheUsersOwn = 0;
-constexpr std::array kShared = {"compare", "dataset", "evaluate", "perturb", "trial"};
+constexpr std::array kShared = {"compare", "dataset", "evaluate", "perturb", "train", "trial"};
 
 // Several processes speak to each other by LibTorch.
 bool SharesWork(int argc, char** argv) {
-  const std::string command = argc > 1 ? argv[1] : "";
-  if (std::count(kShared.begin(), kShared.end(), command) == 0) return false;
+  if (argc < 2 || !IsShared(argv[1])) return false;
   const bool asked = std::any_of(argv, argv + argc, [](const char* word) {
     return std::string_view(word).starts_with("--processes");
   });
@@ -42,6 +41,10 @@ void TellOfInstalledNetworks(const std::filesystem::path& program) {
 }
 
 }  // namespace
+
+bool IsShared(const std::string& command) {
+  return std::count(kShared.begin(), kShared.end(), command) > 0;
+}
 
 bool NeedsNetworks(int argc, char** argv) {
   if (SharesWork(argc, argv)) return true;

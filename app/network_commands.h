@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace antigrasp {
 
@@ -23,6 +24,8 @@ inline constexpr NetworkCommand kFigure{
 inline constexpr NetworkCommand kGenerator{
     "generator", "Write the networks of a checkpoint alone, float16, to share and start from"};
 
+// Whether this is a command whose work several processes share.
+bool IsShared(const std::string& command);
 // Whether the arguments of main() are such a command or ask for its help, or several processes are
 // to share a command on meshes.
 bool NeedsNetworks(int argc, char** argv);

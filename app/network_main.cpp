@@ -6,8 +6,10 @@
 
 #include "antigrasp/app/commands.h"
 #include "antigrasp/app/console.h"
+#include "antigrasp/app/network_commands.h"
 #include "antigrasp/app/program.h"
 #include "antigrasp/doctor/examine_networks.h"
+#include "antigrasp/ranks/job.h"
 #include "antigrasp/ranks/run_shared.h"
 
 namespace antigrasp {
@@ -45,5 +47,8 @@ int main(int argc, char** argv) {
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
 #endif
-  return antigrasp::RunProgram(argc, argv, antigrasp::AddCommands);
+  using namespace antigrasp;
+  return RunProgram(argc, argv, AddCommands, [&](int exit_code, const std::string& line) {
+    return argc < 2 || !IsShared(argv[1]) || SaysFailure(exit_code, line);
+  });
 }

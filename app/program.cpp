@@ -10,20 +10,13 @@
 #include <vector>
 
 #include "antigrasp/app/console.h"
-#include "antigrasp/core/error.h"
+#include "antigrasp/core/exit_code.h"
 #include "antigrasp/core/launch.h"
 #include "antigrasp/core/nearest.h"
 #include "antigrasp/core/version.h"
 
 namespace antigrasp {
 namespace {
-
-enum ExitCode { kOk = 0, kFailure = 1, kBadInput = 2, kInterrupted = 130 };
-
-int Fail(int code, const char* message) {
-  std::fprintf(stderr, "%s: %s\n", Speaker().c_str(), message);
-  return code;
-}
 
 // "antigrasp dataset import".
 std::string FullName(const CLI::App& command) {
@@ -103,7 +96,7 @@ int Parse(int argc, char** argv, const std::function<void(CLI::App*)>& add_comma
   help->callback([&] { PrintHelpOf(app, path); });
   if (argc == 1) {
     PrintHelp(app);
-    return kOk;
+    return kExitOk;
   }
   try {
     app.parse(argc, argv);
@@ -113,14 +106,15 @@ int Parse(int argc, char** argv, const std::function<void(CLI::App*)>& add_comma
     const bool by_a_word = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
                            dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
     if (by_a_word) RefuseUnknownWord(app);
-    return Fail(kBadInput, (std::string(error.what()) + "; see antigrasp help").c_str());
+    throw ToldInputError(std::string(error.what()) + "; see antigrasp help");
   }
-  return kOk;
+  return kExitOk;
 }
 
 }  // namespace
 
-int RunProgram(int argc, char** argv, const std::function<void(CLI::App*)>& add_commands) {
+int RunProgram(int argc, char** argv, const std::function<void(CLI::App*)>& add_commands,
+               const SaysFn& says) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("antigrasp"));
   spdlog::set_pattern("[%H:%M:%S] %^%v%$");
   if (!LeadsJob()) spdlog::set_level(spdlog::level::err);  // rank 0 warns
@@ -129,13 +123,14 @@ int RunProgram(int argc, char** argv, const std::function<void(CLI::App*)>& add_
     const int code = Parse(argc, argv, add_commands);
     // What was flushed on the way and failed is not asked again.
     const bool written = code != 0 || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0);
-    return written ? code : Fail(kFailure, "cannot write to standard output");
-  } catch (const InputError& error) {
-    return Fail(kBadInput, error.what());
-  } catch (const Interrupted&) {
-    return Fail(kInterrupted, "interrupted");
+    if (!written) throw RuntimeFailure("cannot write to standard output");
+    return code;
+  } catch (const SaidElsewhere& said) {
+    return said.exit_code();
   } catch (const std::exception& error) {
-    return Fail(kFailure, error.what());
+    const int code = ExitCodeOf(std::current_exception());
+    if (!says || says(code, error.what())) SayOfRank(error.what());
+    return code;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -14,6 +15,7 @@ namespace antigrasp {
 namespace {
 
 constexpr int kMostRanks = 1 << 20;
+constexpr int kDay = 86400;
 // Slurm names no port: one of its own for every job (Debian and Slurm use none of these).
 constexpr int kFirstPort = 29400, kPorts = 1024;
 
@@ -55,6 +57,8 @@ Launch Counted(const Variables& of, const Names& names) {
   launch.size = of.Number(names.size, 1, kMostRanks);
   launch.rank = of.Number(names.rank, 0, launch.size - 1);
   launch.local = of.NumberOr(names.local, 1, kMostRanks, 1);
+  launch.lost_after =
+      of.NumberOr("ANTIGRASP_LOST_AFTER", 1, kDay, static_cast<int>(launch.lost_after));
   return launch;
 }
 
@@ -145,17 +149,26 @@ std::vector<std::string> EnvironmentAlone() {
   return variables;
 }
 
+std::string HostName() {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  return host.data();
+}
+
 std::string Speaker() {
   const std::string program = "antigrasp";
   try {
     const std::optional<Launch> launch = LaunchOfEnvironment();
     if (!launch || launch->size == 1) return program;
-    std::array<char, 256> host{};
-    gethostname(host.data(), host.size() - 1);
-    return program + " (rank " + std::to_string(launch->rank) + " on " + host.data() + ")";
+    return program + " (rank " + std::to_string(launch->rank) + " on " + HostName() + ")";
   } catch (const InputError&) {
     return program;  // whose own message says what is wrong
   }
+}
+
+void SayOfRank(const std::string& line) {
+  std::fprintf(stderr, "%s: %s\n", Speaker().c_str(), line.c_str());
+  std::fflush(stderr);
 }
 
 }  // namespace antigrasp

@@ -19,8 +19,12 @@ struct Launch {
   // torchrun listens itself, also for its workers; each of its restarts is told by a prefix.
   bool store_is_there = false;
   std::string prefix;
+  double lost_after = 30.0;  // seconds without a sign of it: a rank is gone
 
   bool leads() const { return rank == 0; }
+  // Seconds for the next of the others to come at the beginning, where one that is gone cannot be
+  // told from one that is on its way.
+  double FirstWait() const { return 1.5 * lost_after; }
 };
 
 using ReadVariable = std::function<const char*(const char* name)>;  // getenv
@@ -29,8 +33,8 @@ using ReadVariable = std::function<const char*(const char* name)>;  // getenv
 // LOCAL_WORLD_SIZE, MASTER_ADDR, MASTER_PORT), by Slurm (SLURM_PROCID, SLURM_NTASKS,
 // SLURM_NTASKS_PER_NODE; the first host of SLURM_JOB_NODELIST, a port from SLURM_JOB_ID) or by
 // OpenMPI (OMPI_COMM_WORLD_RANK, _SIZE, _LOCAL_SIZE); MASTER_ADDR and MASTER_PORT go before what
-// the last two say. InputError for what is no number or out of range, and where nobody says where
-// rank 0 listens.
+// the last two say. ANTIGRASP_LOST_AFTER is lost_after. InputError for what is no number or out of
+// range, and where nobody says where rank 0 listens.
 std::optional<Launch> LaunchOfEnvironment(const ReadVariable& read);
 std::optional<Launch> LaunchOfEnvironment();
 
@@ -44,8 +48,13 @@ int ProcessesHere();
 // rank of its job.
 std::vector<std::string> EnvironmentAlone();
 
+std::string HostName();
+
 // Who says something: "antigrasp", of several processes "antigrasp (rank 2 on node07)".
 std::string Speaker();
+
+// A line to standard error that says whose it is.
+void SayOfRank(const std::string& line);
 
 // The first host of a Slurm list: "node[03-05,9],gpu1" -> "node03".
 std::string FirstHost(const std::string& list);

@@ -5,6 +5,7 @@
 #include "antigrasp/mesh/inspect.h"
 
 namespace antigrasp {
+namespace {
 
 std::string MeshText(const TriangleMesh& mesh) {
   const MeshReport report = Inspect(mesh);
@@ -31,6 +32,16 @@ std::string MeshText(const TriangleMesh& mesh) {
                 report.genus, report.volume, report.area);
   return lines + text + "  printable solid    " + (refusal.empty() ? "yes" : "no: " + refusal) +
          "\n";
+}
+
+}  // namespace
+
+std::string MeshFileText(const MeshFile& file) {
+  std::string text = "mesh, " + std::to_string(file.mesh.vertices.size()) + " vertices, " +
+                     std::to_string(file.mesh.faces.size()) + " faces\n";
+  if (file.unit) text += "  unit               " + file.unit->name + "\n";
+  for (const std::string& note : file.notes) text += "  note               " + note + "\n";
+  return text + MeshText(file.mesh);
 }
 
 }  // namespace antigrasp

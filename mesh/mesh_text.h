@@ -2,11 +2,12 @@
 
 #include <string>
 
-#include "antigrasp/mesh/triangle_mesh.h"
+#include "antigrasp/mesh/mesh_file.h"
 
 namespace antigrasp {
 
-// What Inspect finds in a mesh, a line each with two spaces before it; lengths in its unit.
-std::string MeshText(const TriangleMesh& mesh);
+// "mesh, 8 vertices, 12 faces", then what its file says and what Inspect finds in it, a line each
+// with two spaces before it; lengths in its unit.
+std::string MeshFileText(const MeshFile& file);
 
 }  // namespace antigrasp

@@ -1,6 +1,5 @@
 #include "antigrasp/ranks/follow.h"
 
-#include <chrono>
 #include <sstream>
 
 #include "antigrasp/core/error.h"
@@ -45,7 +44,7 @@ class Follower {
         SampleTogether(group_, model_.get(), static_cast<std::uint64_t>(heard.a), heard.b, heard.c);
         break;
       case Order::kScore:
-        ScoreTogether(group_, heard.a, group_->TensorFromLeader({}), config_, JudgeOf(), nullptr);
+        ScoreTogether(work_, heard.a, group_->TensorFromLeader({}), config_, JudgeOf(), nullptr);
         break;
       case Order::kPrior:
         HelpWithPrior(work_);
@@ -116,17 +115,40 @@ void FollowRanks(RankGroup* group, WorkShare* work, const JudgeMaker& make_judge
   }
 }
 
+namespace {
+
+void Lead(RankGroup* group, RankedShare* work, const RunFn& run, const RunParts& parts) {
+  Leader leader(group);
+  try {
+    run(leader.maker(), parts);
+  } catch (...) {  // said before the others are told the end
+    work->LeaveWith(std::current_exception());
+  }
+}
+
+void Follow(RankGroup* group, RankedShare* work, const JudgeMaker& make_judge,
+            const MeshRefiner& refine) {
+  try {
+    FollowRanks(group, work, make_judge, refine);
+  } catch (const WorkOver&) {
+  } catch (...) {
+    work->LeaveWith(std::current_exception());
+  }
+}
+
+}  // namespace
+
 void RunAsJob(int processes, const std::function<std::vector<std::string>()>& same,
               const std::function<void()>& pause, const JudgeMaker& make_judge,
               const MeshRefiner& refine, const RunFn& run) {
   const std::unique_ptr<Ranks> ranks = JoinRanks(processes, same, pause);
   if (ranks == nullptr) return run(MakeGan, {make_judge, InThreads(refine)});
   RankGroup* const group = &ranks->group();
-  RankedShare work(group, std::chrono::seconds(0));  // Leader waits for the others
-  if (!group->leads()) return FollowRanks(group, &work, make_judge, refine);
-  Leader leader(group);
-  run(leader.maker(), {make_judge, RankedRefiner(group, &work, refine), RankedScorer(group),
-                       RankedPrior(group, &work)});
+  RankedShare work(group);
+  if (!group->leads()) return Follow(group, &work, make_judge, refine);
+  Lead(group, &work, run,
+       {make_judge, RankedRefiner(group, &work, refine), RankedScorer(group, &work),
+        RankedPrior(group, &work)});
   SayOfRank(ranks->group().SentText());
 }
 

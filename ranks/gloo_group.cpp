@@ -1,97 +1,28 @@
-// RankGroup on c10d. The one file that knows that LibTorch 1.13 and 2.x differ here.
+// RankGroup on c10d. LibTorch 1.13 and 2.x differ here and in meeting.cpp alone.
 #include <torch/csrc/distributed/c10d/PrefixStore.hpp>
 #include <torch/csrc/distributed/c10d/ProcessGroupGloo.hpp>
-#include <torch/csrc/distributed/c10d/TCPStore.hpp>
 
 #include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <map>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/core/exit_code.h"
+#include "antigrasp/ranks/meeting.h"
 #include "antigrasp/ranks/rank_group.h"
 #include "antigrasp/ranks/signs_of_life.h"
 
 namespace antigrasp {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using StorePtr = c10::intrusive_ptr<c10d::Store>;
 
-constexpr std::chrono::seconds kSayEvery(10);
 // Of one collective: rank 0 may score, choose and save for long between two. Who is dead is
 // noticed by SignsOfLife.
 constexpr std::chrono::hours kLong(24);
-
-constexpr double kPartingSeconds = 10.0;
-
-double Since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::string Address(const Launch& launch) {
-  return launch.host + ":" + std::to_string(launch.port);
-}
-
-std::vector<std::uint8_t> Bytes(const std::string& text) { return {text.begin(), text.end()}; }
-
-// LibTorch 2.x asks for libuv's sockets by default; Debian's is built without them.
-template <typename Options>
-void TakeOwnSockets(Options* store) {
-  if constexpr (requires { store->useLibUV; }) store->useLibUV = false;
-}
-
-// A connection to the store; tried again until it stands, and said every ten seconds.
-c10::intrusive_ptr<c10d::TCPStore> Connect(const Launch& launch, bool serve,
-                                           const JoinOptions& options) {
-  const auto start = Clock::now();
-  while (true) {
-    c10d::TCPStoreOptions store;
-    store.port = launch.port;
-    store.isServer = serve;
-    store.waitWorkers = false;
-    TakeOwnSockets(&store);
-    store.timeout = kSayEvery;
-    try {
-      auto tcp = c10::make_intrusive<c10d::TCPStore>(launch.host, store);
-      tcp->setTimeout(std::chrono::duration_cast<std::chrono::milliseconds>(kLong));
-      return tcp;
-    } catch (const std::exception& error) {
-      if (serve) {
-        throw RuntimeFailure("rank 0 cannot listen on port " + std::to_string(launch.port) +
-                             " (MASTER_PORT): " + std::string(error.what()).substr(0, 120));
-      }
-    }
-    if (Since(start) > options.patience_seconds) {
-      throw RuntimeFailure(
-          "rank 0 does not answer at " + Address(launch) +
-          " (MASTER_ADDR, MASTER_PORT): does it run, and lets the network through?");
-    }
-    if (options.pause) options.pause();
-    if (options.say) options.say("waiting for rank 0 at " + Address(launch));
-  }
-}
-
-// What c10d throws is about sockets; whoever reads it wants to know who is missing.
-template <typename Work>
-auto ToOthers(const Work& work) {
-  try {
-    return work();
-  } catch (const InputError&) {  // ours
-    throw;
-  } catch (const RuntimeFailure&) {
-    throw;
-  } catch (const Interrupted&) {
-    throw;
-  } catch (const c10::Error&) {
-    throw RuntimeFailure("another process of the job is gone; what was saved stays");
-  } catch (const std::runtime_error&) {
-    throw RuntimeFailure("another process of the job is gone; what was saved stays");
-  }
-}
 
 class GlooGroup : public RankGroup {
  public:
@@ -102,17 +33,19 @@ class GlooGroup : public RankGroup {
   std::vector<torch::Tensor> AllOfFirst(int ranks, const torch::Tensor& mine) override;
   torch::Tensor ToEachOfFirst(int ranks, const torch::Tensor& slices) override;
   void FromLeader(torch::Tensor* tensor) override;
+  void GiveLeader(const torch::Tensor& tensor) override;
+  void TakeFrom(int rank, torch::Tensor* tensor) override;
   std::int64_t TakeNext(const std::string& counter, std::int64_t count) override;
   void Put(const std::string& name, const std::string& bytes) override;
   std::string Wait(const std::string& name) override;
   bool Has(const std::string& name) override;
+  void Leave() override { life_->SayGoodbye(); }
 
  private:
   StorePtr Prefixed(const Launch& launch, const StorePtr& store) const;
-  void Meet(const JoinOptions& options);
-  void Compare(const std::vector<std::string>& same);
-  void PartFromOthers();
   void ConnectAll(const Launch& launch);
+  template <typename Work>
+  auto ToOthers(const Work& work);
   c10d::ProcessGroupGloo* First(int ranks);
 
   int rank_, size_;
@@ -123,98 +56,48 @@ class GlooGroup : public RankGroup {
   std::map<int, c10::intrusive_ptr<c10d::ProcessGroupGloo>> first_;
 };
 
+// What c10d throws is about sockets; whoever reads it wants to know who is missing.
+template <typename Work>
+auto GlooGroup::ToOthers(const Work& work) {
+  std::string broken;
+  try {
+    return work();
+  } catch (const InputError&) {  // ours
+    throw;
+  } catch (const RuntimeFailure&) {
+    throw;
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const c10::Error& error) {
+    broken = error.what_without_backtrace();
+  } catch (const std::runtime_error& error) {
+    broken = error.what();
+  }
+  if (life_->FindWhoIsGone()) throw SaidElsewhere(kExitFailure);
+  throw RuntimeFailure("a connection to another process of the job broke (" +
+                       broken.substr(0, 120) + "); what was saved stays");
+}
+
 GlooGroup::GlooGroup(const Launch& launch, const JoinOptions& options)
     : rank_(launch.rank), size_(launch.size) {
   Launch at = launch;
   const bool serves = launch.leads() && !launch.store_is_there;
-  const auto tcp = Connect(launch, serves, options);
+  const auto tcp = ConnectToStore(launch, serves, options);
   at.port = tcp->getPort();
   if (serves && options.listening) options.listening(at.port);
   store_ = Prefixed(launch, tcp);
-  life_ = std::make_unique<SignsOfLife>(Prefixed(launch, Connect(at, false, options)), rank_, size_,
-                                        options.lost_after_seconds);
+  life_ =
+      std::make_unique<SignsOfLife>(Prefixed(launch, ConnectToStore(at, false, options)), launch);
   ToOthers([&] {
-    Meet(options);
-    Compare(options.same);
+    MeetAll(launch, store_.get(), options, life_.get());
     return true;
   });
   ConnectAll(launch);
+  life_->LetLeave();
 }
 
 StorePtr GlooGroup::Prefixed(const Launch& launch, const StorePtr& store) const {
   return c10::make_intrusive<c10d::PrefixStore>(launch.prefix + "/antigrasp", store);
-}
-
-// All are there; until then rank 0 says who is missing.
-void GlooGroup::Meet(const JoinOptions& options) {
-  const auto here = [](int rank) { return "here/" + std::to_string(rank); };
-  store_->set(here(rank_), Bytes("1"));
-  const auto start = Clock::now();
-  double said = 0.0;
-  while (true) {
-    std::string missing;
-    int count = 0;
-    for (int other = 0; other < size_; ++other) {
-      if (store_->check({here(other)})) continue;
-      if (++count <= 8) missing += (missing.empty() ? "" : ", ") + std::to_string(other);
-    }
-    if (count == 0) return;
-    if (count > 8) missing += " and " + std::to_string(count - 8) + " more";
-    const std::string text =
-        "waiting for rank " + missing + " of " + std::to_string(size_) + " (they count from 0)";
-    const double waited = Since(start);
-    if (waited > options.patience_seconds) {
-      throw RuntimeFailure("gave up after " + std::to_string(static_cast<int>(waited)) + " s " +
-                           text);
-    }
-    if (rank_ == 0 && options.say && waited - said > static_cast<double>(kSayEvery.count())) {
-      said = waited;
-      options.say(text);
-    }
-    if (options.pause) options.pause();
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-}
-
-// Every rank shows what it has; every rank refuses where one has another.
-void GlooGroup::Compare(const std::vector<std::string>& same) {
-  const auto name = [](int rank) { return "same/" + std::to_string(rank); };
-  std::string all;
-  for (const std::string& line : same) all += line + "\n";
-  store_->set(name(rank_), Bytes(all));
-  const auto of = [&](int rank) {
-    const std::vector<std::uint8_t> bytes = store_->get(name(rank));
-    return std::string(bytes.begin(), bytes.end());
-  };
-  const std::string leader = of(0);
-  for (int other = 1; other < size_; ++other) {
-    const std::string theirs = of(other);
-    if (theirs == leader) continue;
-    std::size_t at = 0;
-    while (at < theirs.size() && at < leader.size() && theirs[at] == leader[at]) ++at;
-    const auto line = [&](const std::string& text) {
-      const std::size_t begin = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
-      const std::string found = text.substr(begin, text.find('\n', begin) - begin);
-      return found.empty() ? std::string("nothing") : found.substr(0, 200);
-    };
-    PartFromOthers();
-    throw InputError("rank " + std::to_string(other) + " has " + line(theirs), "start of the job",
-                     "what rank 0 has: " + line(leader));
-  }
-}
-
-// All have seen why the job ends before rank 0 ends with the store that they read it from.
-void GlooGroup::PartFromOthers() {
-  life_.reset();
-  const auto parted = [](int rank) { return "parted/" + std::to_string(rank); };
-  store_->set(parted(rank_), Bytes("1"));
-  if (rank_ != 0) return;
-  const auto start = Clock::now();
-  for (int other = 1; other < size_; ++other) {
-    while (!store_->check({parted(other)}) && Since(start) < kPartingSeconds) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-  }
 }
 
 void GlooGroup::ConnectAll(const Launch& launch) {
@@ -232,6 +115,7 @@ void GlooGroup::ConnectAll(const Launch& launch) {
     }
     First(size_);
   } catch (const std::exception& error) {
+    if (life_->FindWhoIsGone()) throw SaidElsewhere(kExitFailure);
     throw RuntimeFailure("the ranks do not reach each other (" +
                          std::string(error.what()).substr(0, 120) +
                          "): GLOO_SOCKET_IFNAME names the one network interface to use");
@@ -279,15 +163,26 @@ void GlooGroup::FromLeader(torch::Tensor* tensor) {
   if (leads()) Count(static_cast<std::int64_t>(tensor->nbytes()) * (size_ - 1));
 }
 
+void GlooGroup::GiveLeader(const torch::Tensor& tensor) {
+  std::vector<torch::Tensor> tensors = {tensor};
+  ToOthers([&] { return First(size_)->send(tensors, 0, 0)->wait(kLong); });
+  Count(static_cast<std::int64_t>(tensor.nbytes()));
+}
+
+void GlooGroup::TakeFrom(int rank, torch::Tensor* tensor) {
+  std::vector<torch::Tensor> tensors = {*tensor};
+  ToOthers([&] { return First(size_)->recv(tensors, rank, 0)->wait(kLong); });
+}
+
 std::int64_t GlooGroup::TakeNext(const std::string& counter, std::int64_t count) {
   Count(static_cast<std::int64_t>(counter.size()));
-  return ToOthers([&] { return store_->add("next/" + counter, count); }) - count;
+  return ToOthers([&] { return store_->add(CounterKey(counter), count); }) - count;
 }
 
 void GlooGroup::Put(const std::string& name, const std::string& bytes) {
   Count(static_cast<std::int64_t>(bytes.size()));
   ToOthers([&] {
-    store_->set("put/" + name, Bytes(bytes));
+    store_->set("put/" + name, {bytes.begin(), bytes.end()});
     return true;
   });
 }

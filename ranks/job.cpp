@@ -2,27 +2,27 @@
 
 #include <signal.h>
 
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <optional>
 #include <utility>
 
-#include "antigrasp/core/error.h"
+#include "antigrasp/core/exit_code.h"
 #include "antigrasp/core/launch.h"
 #include "antigrasp/core/parallel.h"
 
 namespace antigrasp {
+namespace {
+
+bool g_joins = false;  // this process has begun to meet the others
+
+}  // namespace
 
 std::vector<std::string> OwnArguments() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::vector<std::string> words;
   for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
   return words;
-}
-
-void SayOfRank(const std::string& line) {
-  std::fprintf(stderr, "%s: %s\n", Speaker().c_str(), line.c_str());
 }
 
 Ranks::Ranks(std::unique_ptr<SpawnedRanks> spawned, std::unique_ptr<RankGroup> group)
@@ -43,6 +43,7 @@ std::unique_ptr<Ranks> JoinRanks(int processes,
   }
   JoinOptions options;
   options.same = same();
+  g_joins = true;
   options.say = &SayOfRank;
   options.pause = pause;
   std::unique_ptr<SpawnedRanks> spawned;
@@ -64,6 +65,22 @@ std::unique_ptr<Ranks> JoinRanks(int processes,
   if (!launch->leads()) signal(SIGINT, SIG_IGN);
   std::unique_ptr<RankGroup> group = RankGroup::Join(*launch, options);
   return std::make_unique<Ranks>(std::move(spawned), std::move(group));
+}
+
+bool SaysFailure(int exit_code, const std::string& line) {
+  if (g_joins || exit_code == kExitInterrupted || !CanJoin()) return true;
+  try {
+    const std::optional<Launch> launch = LaunchOfEnvironment();
+    if (!launch || launch->size == 1) return true;
+    JoinOptions options;
+    options.failure = {exit_code, line};
+    RankGroup::Join(*launch, options);
+    return true;  // which does not happen: that one fails is seen by all
+  } catch (const SaidElsewhere&) {
+    return false;
+  } catch (const std::exception&) {  // the others do not come
+    return true;
+  }
 }
 
 }  // namespace antigrasp

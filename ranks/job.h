@@ -24,9 +24,6 @@ class Ranks {
 // The words that this program was called with, its own name first.
 std::vector<std::string> OwnArguments();
 
-// A line to standard error that says which rank it is of.
-void SayOfRank(const std::string& line);
-
 // Joins the other processes of the job that the environment tells of, or starts `processes` - 1 of
 // them where it tells of none; nullptr: this process is alone. `same`: what all must have
 // (JoinOptions), asked for only then; `pause` is called while it waits and may throw Interrupted.
@@ -34,5 +31,10 @@ void SayOfRank(const std::string& line);
 std::unique_ptr<Ranks> JoinRanks(int processes,
                                  const std::function<std::vector<std::string>()>& same,
                                  const std::function<void()>& pause);
+
+// For a program that fails with `line`: whether this process says so. Of a job whose ranks have not
+// met yet the first of those that fail does, and the others hear of it; later LeaveWith
+// (ranked_share.h) has seen to it. Waits for the others, some seconds at most.
+bool SaysFailure(int exit_code, const std::string& line);
 
 }  // namespace antigrasp

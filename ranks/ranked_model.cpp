@@ -67,10 +67,21 @@ torch::Tensor SampleTogether(RankGroup* group, ShapeModel* model, std::uint64_t 
   const std::int64_t each = (blocks + n - 1) / n * kSampleBlock;
   const std::int64_t begin = std::min(group->rank() * each, count);
   const std::int64_t end = std::min(begin + each, count);
-  const torch::Tensor own = model->Sample(seed, first + begin, end - begin);
-  torch::Tensor padded = torch::zeros({each, own.size(1), own.size(2), own.size(3), own.size(4)});
-  padded.slice(0, 0, end - begin).copy_(own);
-  return torch::cat(group->All(padded)).slice(0, 0, count).clone();
+  torch::Tensor own = model->Sample(seed, first + begin, end - begin);
+  if (!group->leads()) {
+    if (end > begin) group->GiveLeader(own.contiguous());
+    return own;
+  }
+  std::vector<std::int64_t> sizes = own.sizes().vec();
+  sizes[0] = count;
+  torch::Tensor all = torch::empty(sizes, own.options());
+  all.slice(0, 0, end).copy_(own);
+  own.reset();
+  for (std::int64_t rank = 1; rank * each < count; ++rank) {
+    torch::Tensor part = all.slice(0, rank * each, std::min((rank + 1) * each, count));
+    group->TakeFrom(static_cast<int>(rank), &part);
+  }
+  return all;
 }
 
 RankedModel::RankedModel(std::unique_ptr<ShapeModel> model, RankGroup* group, std::int64_t parts)

@@ -31,7 +31,7 @@ enum class Order : std::int64_t {
   kLoad,          // + state
   kShapes,        // + training set
   kStep,
-  kSample,  // seed, first, count; the ranks gather blocks
+  kSample,  // seed, first, count; rank 0 takes the blocks of all
   kScore,   // number of the job + network values
   kPrior,   // + options, and items to make (ranks/made_together.h)
   kRefine,  // + elites, likewise
@@ -46,7 +46,8 @@ OrderHeader TellOrHear(RankGroup* group, const OrderHeader& header);  // rank 0 
 // A state from rank 0; others hand in nothing.
 NamedTensors StateFromLeader(RankGroup* group, const NamedTensors& state);
 
-// Samples first to first + count - 1, in blocks of AveragedGenerator that the ranks share.
+// Samples first to first + count - 1, in blocks of AveragedGenerator that the ranks share: on rank
+// 0 all of them, on the others their own.
 torch::Tensor SampleTogether(RankGroup* group, ShapeModel* model, std::uint64_t seed,
                              std::int64_t first, std::int64_t count);
 

@@ -1,10 +1,12 @@
 #include "antigrasp/ranks/ranked_scorer.h"
 
 #include <algorithm>
-#include <map>
+#include <chrono>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <thread>
 #include <utility>
 
 #include "antigrasp/core/bytes.h"
@@ -20,11 +22,11 @@ constexpr std::int64_t kBeyondAll = std::int64_t{1} << 40;
 // Ends the sharing on the way out: the others find nothing left to take.
 class TakeTheRest {
  public:
-  TakeTheRest(RankGroup* group, std::string counter)
-      : group_(group), counter_(std::move(counter)) {}
+  TakeTheRest(WorkShare* share, std::string counter)
+      : share_(share), counter_(std::move(counter)) {}
   ~TakeTheRest() {
     try {
-      group_->TakeNext(counter_, kBeyondAll);
+      share_->TakeNext(counter_, kBeyondAll);
     } catch (const std::exception&) {  // the store is gone, and with it who would ask
     }
   }
@@ -32,7 +34,7 @@ class TakeTheRest {
   TakeTheRest& operator=(const TakeTheRest&) = delete;
 
  private:
-  RankGroup* group_;
+  WorkShare* share_;
   std::string counter_;
 };
 
@@ -112,49 +114,60 @@ void TakeScored(const std::string& bytes, std::int64_t first, ScoredStage* all) 
   reader.End();
 }
 
-ScoredStage ScoreTogether(RankGroup* group, std::int64_t job, const torch::Tensor& values,
+ScoredStage ScoreTogether(WorkShare* share, std::int64_t job, const torch::Tensor& values,
                           const RunConfig& config, Judge* judge, const ProgressFn& progress) {
   const std::string counter = "score" + std::to_string(job);
   const std::int64_t count = values.size(0);
-  const std::int64_t chunk = ChunkOf(count, config, group->size());
+  const std::int64_t chunk = ChunkOf(count, config, share->size());
   ScoredStage all;
-  if (group->leads()) {
+  if (share->leads()) {
     all.values = values;
     all.objects.resize(static_cast<std::size_t>(count));
     all.scores.resize(static_cast<std::size_t>(count));
     all.graspabilities.resize(static_cast<std::size_t>(count));
   }
   std::unique_ptr<TakeTheRest> rest;
-  if (group->leads()) rest = std::make_unique<TakeTheRest>(group, counter);
+  if (share->leads()) rest = std::make_unique<TakeTheRest>(share, counter);
   std::set<std::int64_t> own;
-  for (std::int64_t first = group->TakeNext(counter, chunk); first < count;
-       first = group->TakeNext(counter, chunk)) {
+  std::int64_t shown = 0;
+  const auto show = [&](std::int64_t done) {
+    shown = done;
+    if (progress) progress(done, count);
+  };
+  for (std::int64_t first = share->TakeNext(counter, chunk); first < count;
+       first = share->TakeNext(counter, chunk)) {
     const std::int64_t taken = std::min(chunk, count - first);
     const std::string bytes = BytesOf(ScoreChunk(values, first, taken, config, judge));
-    if (!group->leads()) {
-      group->Put(NameOf(counter, first), bytes);
+    if (!share->leads()) {
+      share->Put(NameOf(counter, first), bytes);
       continue;
     }
     TakeScored(bytes, first, &all);
     own.insert(first);
-    if (progress) progress(first + taken, count);  // the others have taken those before
+    show(first + taken);  // the others have taken those before
   }
-  if (!group->leads()) return all;
+  if (!share->leads()) return all;
   for (std::int64_t first = 0; first < count; first += chunk) {
-    if (own.count(first) == 0) TakeScored(group->Wait(NameOf(counter, first)), first, &all);
+    if (own.count(first) > 0) continue;
+    std::optional<std::string> theirs;
+    while (!(theirs = share->TakeIfThere(NameOf(counter, first)))) {
+      if (shown > 0) show(shown);  // hears Ctrl-C
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    TakeScored(*theirs, first, &all);
   }
-  if (progress) progress(count, count);
+  show(count);
   return all;
 }
 
-ScorerMaker RankedScorer(RankGroup* group) {
+ScorerMaker RankedScorer(RankGroup* group, WorkShare* share) {
   const auto jobs = std::make_shared<std::int64_t>(0);
-  return [group, jobs](const RunConfig& config, Judge* judge, RunObserver* observer) {
+  return [group, share, jobs](const RunConfig& config, Judge* judge, RunObserver* observer) {
     return [=, &config](const torch::Tensor& values, const std::string& name) {
       const std::int64_t job = (*jobs)++;
       TellOrHear(group, {Order::kScore, job});
       const torch::Tensor told = group->TensorFromLeader(values);
-      return ScoreTogether(group, job, told, config, judge, observer->Phase(name));
+      return ScoreTogether(share, job, told, config, judge, observer->Phase(name));
     };
   };
 }

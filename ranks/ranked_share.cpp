@@ -3,7 +3,8 @@
 #include <thread>
 #include <utility>
 
-#include "antigrasp/core/error.h"
+#include "antigrasp/core/exit_code.h"
+#include "antigrasp/core/launch.h"
 
 namespace antigrasp {
 namespace {
@@ -11,16 +12,17 @@ namespace {
 constexpr char kText = 'T', kEnd = 'E';                     // what rank 0 tells
 constexpr char kInput = 'I', kRuntime = 'R';                // what others fail with
 constexpr const char *kLeft = "left", *kFailed = "failed";  // counters
+constexpr std::chrono::seconds kForRankZero(3);
 
-// Of another rank, in its words.
-class ToldInputError : public InputError {
- public:
-  explicit ToldInputError(std::string line) : InputError("", "", ""), line_(std::move(line)) {}
-  const char* what() const noexcept override { return line_.c_str(); }
-
- private:
-  std::string line_;
-};
+bool IsSaidElsewhere(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const SaidElsewhere&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
 
 std::string Failure(std::int64_t number) { return "failure/" + std::to_string(number); }
 
@@ -33,6 +35,7 @@ std::string ToldTo(int rank, std::int64_t number) {
 RankedShare::~RankedShare() {
   try {
     if (!leads()) {
+      group_->Leave();
       group_->TakeNext(kLeft, 1);
       return;
     }
@@ -83,16 +86,49 @@ std::optional<std::string> RankedShare::TakeIfThere(const std::string& name) {
   throw RuntimeFailure(failure.empty() ? "another rank failed" : failure.substr(1));
 }
 
-void RankedShare::Fail(const std::exception_ptr& error) {
-  std::string failure;
+void RankedShare::LeaveWith(const std::exception_ptr& error) {
+  int exit_code = ExitCodeOf(error);
+  if (exit_code == kExitInterrupted) std::rethrow_exception(error);
+  bool said = IsSaidElsewhere(error);
+  try {
+    if (leads() && said) {
+      patience_ = std::chrono::seconds(0);  // the others know
+      exit_code = FailedWith(exit_code);
+    }
+    if (!said) {
+      if (!leads()) HandIn(error);
+      said = group_->TakeNext(kSaid, 1) > 0;
+    }
+  } catch (const std::exception&) {  // rank 0 is gone, and nobody else can say it
+  }
+  if (said) throw SaidElsewhere(exit_code);
+  std::rethrow_exception(error);
+}
+
+// Rank 0 is to speak; where it is in the middle of something for long, this rank will.
+void RankedShare::HandIn(const std::exception_ptr& error) {
+  std::string words;
   try {
     std::rethrow_exception(error);
-  } catch (const InputError& input) {
-    failure = kInput + std::string(input.what());
-  } catch (const std::exception& other) {
-    failure = kRuntime + std::string(other.what());
+  } catch (const std::exception& failure) {
+    words = failure.what();
+  } catch (...) {
+    words = "unknown failure";
   }
-  group_->Put(Failure(group_->TakeNext(kFailed, 1)), failure);
+  const char kind = ExitCodeOf(error) == kExitBadInput ? kInput : kRuntime;
+  group_->Put(Failure(group_->TakeNext(kFailed, 1)),
+              kind + ("rank " + std::to_string(rank()) + " on " + HostName() + ": " + words));
+  const auto start = std::chrono::steady_clock::now();
+  while (group_->TakeNext(kSaid, 0) == 0 &&
+         std::chrono::steady_clock::now() - start < kForRankZero) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+// Rank 0 that has been left by another: the exit code of that one, if it failed.
+int RankedShare::FailedWith(int otherwise) {
+  if (group_->TakeNext(kFailed, 0) == 0) return otherwise;
+  return group_->Wait(Failure(0)).starts_with(kInput) ? kExitBadInput : kExitFailure;
 }
 
 }  // namespace antigrasp

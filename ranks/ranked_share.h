@@ -15,8 +15,7 @@ namespace antigrasp {
 class RankedShare : public WorkShare {
  public:
   // At its end rank 0 tells it, and waits for the others, which may be in the middle of an item.
-  explicit RankedShare(RankGroup* group, std::chrono::seconds patience = std::chrono::seconds(10))
-      : group_(group), patience_(patience) {}
+  explicit RankedShare(RankGroup* group) : group_(group) {}
   ~RankedShare() override;
   RankedShare(const RankedShare&) = delete;
   RankedShare& operator=(const RankedShare&) = delete;
@@ -28,14 +27,18 @@ class RankedShare : public WorkShare {
   void Put(const std::string& name, const std::string& bytes) override;
   std::optional<std::string> TakeIfThere(const std::string& name) override;
 
-  // Of another rank than 0: rank 0 is to fail with it, too.
-  void Fail(const std::exception_ptr& error);
+  // For what this rank has failed with: rank 0 is to fail with it, too, and one of all says why.
+  // Leaves by `error` where that is this one, else by SaidElsewhere. A rank that is not rank 0
+  // waits some seconds for it to speak.
+  [[noreturn]] void LeaveWith(const std::exception_ptr& error);
 
  private:
   void TellAll(char kind, const std::string& text);
+  void HandIn(const std::exception_ptr& error);
+  int FailedWith(int otherwise);
 
   RankGroup* group_;
-  std::chrono::seconds patience_;
+  std::chrono::seconds patience_{10};
   std::mutex mutex_;  // of the group
   std::int64_t told_ = 0;
 };

@@ -100,8 +100,7 @@ void RunShared(int processes, const std::function<void()>& pause, const SharedRu
       run(&share);
     } catch (const WorkOver&) {
     } catch (...) {
-      if (!share.leads()) share.Fail(std::current_exception());
-      throw;
+      share.LeaveWith(std::current_exception());
     }
   }
   if (ranks->group().leads()) SayOfRank(ranks->group().SentText());

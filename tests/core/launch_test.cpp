@@ -98,6 +98,19 @@ TEST(Launch, NumbersOutOfRangeAreNamed) {
       "MASTER_PORT = \"65536\" (environment): expected a number from 0 to 65535");
 }
 
+TEST(Launch, SaysHowLongARankMayBeSilent) {
+  std::map<std::string, std::string> of = {
+      {"RANK", "0"}, {"WORLD_SIZE", "2"}, {"MASTER_ADDR", "a"}, {"MASTER_PORT", "1"}};
+  EXPECT_EQ(From(of)->lost_after, 30.0);
+  EXPECT_EQ(From(of)->FirstWait(), 45.0);  // within the 60 s in which a job ends
+  of["ANTIGRASP_LOST_AFTER"] = "300";
+  EXPECT_EQ(From(of)->lost_after, 300.0);
+  EXPECT_EQ(From(of)->FirstWait(), 450.0);
+  of["ANTIGRASP_LOST_AFTER"] = "0";
+  EXPECT_EQ(Refusal(of),
+            "ANTIGRASP_LOST_AFTER = \"0\" (environment): expected a number from 1 to 86400");
+}
+
 TEST(Launch, TheFirstHostOfASlurmList) {
   EXPECT_EQ(FirstHost("node1"), "node1");
   EXPECT_EQ(FirstHost("node1,node2"), "node1");

@@ -49,6 +49,16 @@ class ThreadRanks {
       *tensor =
           all_->Exchange(rank_, leads() ? tensor->clone() : torch::Tensor(), size())[0].clone();
     }
+    void GiveLeader(const torch::Tensor& tensor) override {
+      const std::lock_guard<std::mutex> lock(all_->mutex_);
+      all_->for_leader_[rank_] = tensor.clone();
+      all_->changed_.notify_all();
+    }
+    void TakeFrom(int rank, torch::Tensor* tensor) override {
+      std::unique_lock<std::mutex> lock(all_->mutex_);
+      all_->changed_.wait(lock, [&] { return all_->for_leader_.count(rank) > 0; });
+      tensor->copy_(all_->for_leader_.extract(rank).mapped());
+    }
     std::int64_t TakeNext(const std::string& counter, std::int64_t count) override {
       const std::lock_guard<std::mutex> lock(all_->mutex_);
       return (all_->counters_[counter] += count) - count;
@@ -98,6 +108,7 @@ class ThreadRanks {
   std::vector<torch::Tensor> given_;
   std::map<std::string, std::int64_t> counters_;
   std::map<std::string, std::string> put_;
+  std::map<int, torch::Tensor> for_leader_;
 };
 
 }  // namespace antigrasp

@@ -5,6 +5,7 @@ import filecmp
 import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import socket
@@ -35,6 +36,11 @@ def free_port():
     with socket.socket() as found:
         found.bind(("127.0.0.1", 0))
         return found.getsockname()[1]
+
+
+def listens(port):
+    with socket.socket() as tried:
+        return tried.connect_ex(("127.0.0.1", port)) == 0
 
 
 def alone(folder):
@@ -100,10 +106,16 @@ def torchrun(folder):
     expect_equal(one, folder / "torchrun")
 
 
+def said(texts):
+    """The lines of failures, of all ranks."""
+    return [line for text in texts for line in text.splitlines() if line.startswith("antigrasp") and ": sent " not in line
+            and ": waiting for " not in line]
+
+
 def killed(folder):
     """A rank is killed; the others end, and a job of another size goes on to the same bytes."""
     one, out = alone(folder), folder / "killed"
-    job = ranks(folder, 3, lambda rank: call(out, "--set", "cem.checkpoint_every=5"))
+    job = ranks(folder, 3, lambda rank: call(out, "--set", "cem.checkpoint_every=5"), ANTIGRASP_LOST_AFTER=6)
     saved = out / "checkpoint.pt"
     while not saved.exists():
         assert job[0].poll() is None, job[0].stderr.read()
@@ -113,59 +125,103 @@ def killed(folder):
     texts = [process.communicate()[1] for process in job[:2]]
     assert time.monotonic() - begin < 60
     assert [process.returncode for process in job[:2]] == [1, 1], texts
-    assert "(rank 0 on " in texts[0] and "is gone" in texts[0], texts[0]
+    assert re.fullmatch(r"antigrasp \(rank 0 on .*\): rank 2 is gone: no sign of it for \d+ s; what was saved stays", *said(texts)), texts
     # cem.checkpoint_every is in the configuration; everything else of the run is the same.
     subprocess.run([PROGRAM, "train", "--resume", str(out), "--processes", "2"], check=True, env=environment(), capture_output=True)
     for name in ("episode_1/scores.csv", "statistics.csv", "episode_1/losses.csv"):
         assert filecmp.cmp(one / name, out / name, shallow=False), name
 
 
+def worked(process):
+    """Seconds of a processor."""
+    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def phase_of(run):
+    if not (run / "prior_scores.csv").exists():
+        return "prior set"
+    return "episode 1" if (run / "episode_0" / "elites.h5").exists() else "episode 0"
+
+
 def kills(folder):
+    """A row of docs/cluster.md a kill: every third job is killed while it begins, which takes a second of a processor."""
     chance, out, one = random.Random(7), folder / "killed", folder / "alone"
-    longer = ("--set", "cem.checkpoint_every=5", "cem.prior_iterations=200", "cem.iterations=100")
+    longer = ("--set", "cem.checkpoint_every=5", "cem.prior_iterations=150", "cem.iterations=100")
     subprocess.run(call(one, *longer), check=True, env=environment(), capture_output=True)
-    done = 0
+    done, size = 0, 3
     while done < 20:
-        size = chance.randint(2, 4)
         saved = (out / "checkpoint.pt").exists()
-        job = ranks(folder, size, lambda rank: [PROGRAM, "train", "--resume", str(out)] if saved else call(out, *longer))
-        time.sleep(chance.uniform(1.0, 6.0))
+        early = done % 3 == 0
+        when = chance.uniform(*((0.0, 1.0) if early else (1.0, 2.5)))
         victim = chance.randrange(size)
-        if job[victim].poll() is None:
-            job[victim].kill()
-            done += 1
-        begin = time.monotonic()
-        codes = []
-        for process in job:
-            try:
-                codes.append(process.wait(timeout=60))
-            except subprocess.TimeoutExpired:  # killed before anybody had heard of it: the others wait for ten minutes
-                process.kill()
-                codes.append(process.wait())
-        print(f"{done}: rank {victim} of {size} killed, the others ended after {time.monotonic() - begin:.1f} s: {codes}", flush=True)
-        if not any(codes):
-            assert done > 0, "the run ended before a kill"
-            break
+        job = ranks(folder, size, lambda rank: [PROGRAM, "train", "--resume", str(out)] if saved else call(out, *longer))
+        while job[victim].poll() is None and worked(job[victim]) < when:
+            time.sleep(0.01)
+        if job[victim].poll() is not None:
+            assert [process.wait() for process in job] == [0] * size, [process.communicate()[1] for process in job]
+            expect_equal(one, out)
+            print("the run came to its end, with the files of an undisturbed one; it begins anew", flush=True)
+            shutil.rmtree(out)
+            continue
+        job[victim].kill()
+        done, begin = done + 1, time.monotonic()
+        texts = [process.communicate()[1] for process in job]
+        took, codes = time.monotonic() - begin, [process.returncode for process in job]
+        lines = said(texts)
+        assert took < 60 and codes[victim] == -signal.SIGKILL and all(codes), (took, codes, texts)
+        assert size == 1 or lines and all(f"rank {victim} " in line for line in lines), (victim, texts)
+        line = lines[0].split("): ", 1)[1] if lines else ""
+        phase, killed = "beginning" if early else phase_of(out), f"{victim} of {size}"
+        size = chance.choice([n for n in (1, 2, 3) if n != size])
+        print(f"| {done} | {killed} | {phase}, {when:.1f} s | {took:.1f} s | {line} | {size} |", flush=True)
     subprocess.run([PROGRAM, "train", "--resume", str(out)], check=True, env=environment(), capture_output=True)
     expect_equal(one, out)
     print(f"{done} kills; the files are those of an undisturbed run")
 
 
 def killed_at_the_door(folder):
-    """Rank 1 of 3 is killed while it waits for rank 2: rank 0 does not wait for ever."""
-    job = ranks(folder, 2, lambda rank: call(folder / "never"), WORLD_SIZE=3)
+    """Who is killed before the others have heard of it, or while they wait for more, does not keep them, nor does one that stands still."""
+    def job(size, started, **more):
+        return ranks(folder, started, lambda rank: call(folder / "never"), WORLD_SIZE=size, ANTIGRASP_LOST_AFTER=6)
+
+    early, door, leader, still = job(3, 3), job(3, 2), job(2, 2), job(2, 2)
+    early[1].kill()
+    leader[0].kill()
     time.sleep(3)
-    job[1].kill()
-    text = job[0].communicate(timeout=60)[1]
-    assert job[0].returncode == 1 and "rank 1 is gone" in text, text
+    door[1].kill()
+    still[0].send_signal(signal.SIGSTOP)
+    begin = time.monotonic()
+    texts = [[process.communicate(timeout=50)[1] for process in group] for group in (early, door, leader, still[1:])]
+    still[0].kill()
+    still[0].wait()
+    assert time.monotonic() - begin < 40
+    assert [p.returncode for p in (*early, *door, *leader, still[1])] == [1, -9, 1, 1, -9, -9, 1, 1], texts
+    lines = [said(group) for group in texts]
+    assert [len(group) for group in lines] == [1, 1, 1, 1], texts
+    assert re.search(r"\(rank 0 on .* waiting for rank 1 of 3 .*: nobody came for \d+ s", lines[0][0]), texts
+    assert re.search(r"\(rank 0 on .* rank 1 is gone: no sign of it for \d+ s|waiting for rank (1, )?2 of 3", lines[1][0]), texts
+    assert re.search(r"\(rank 1 on .* rank 0 does not answer at 127.0.0.1|rank 0 is gone", lines[2][0]), texts
+    assert re.search(r"\(rank 1 on .* rank 0 is gone: no sign of it for \d+ s|rank 0 does not answer", lines[3][0]), texts
 
 
 def other_settings(folder):
-    job = ranks(folder, 2, lambda rank: call(folder / "never", "--set", f"cem.keep={8 - rank}"))
-    texts = [process.communicate()[1] for process in job]
-    assert [process.returncode for process in job] == [2, 2], texts
-    assert "rank 1 has cem.keep = 7" in texts[0] and "what rank 0 has: cem.keep = 8" in texts[0], texts[0]
-    assert not (folder / "never").exists()
+    """Other settings, and what all or one are refused for: a line of one rank, before anything is written."""
+    never = folder / "never"
+
+    def refusal(arguments, speaker):
+        job = ranks(folder, 3, arguments)
+        texts = [process.communicate()[1] for process in job]
+        assert [process.returncode for process in job] == [2, 2, 2], texts
+        lines = said(texts)
+        assert len(lines) == 1 and lines[0] in texts[speaker] and not never.exists(), texts
+        return lines[0].split("): ", 1)[1]
+
+    assert refusal(lambda rank: call(never, "--set", f"cem.keep={8 - rank // 2}"), 0) == (
+        "rank 2 has cem.keep = 7 (start of the job): expected what rank 0 has: cem.keep = 8")
+    assert refusal(lambda rank: call(never, "--set", "gan.batch=0"), 0).startswith("gan.batch = 0 (--set): expected")
+    assert refusal(lambda rank: call(never, "--no-such-option"), 0).startswith("no option --no-such-option")
+    assert refusal(lambda rank: call(never, *(["--no-such-option"] if rank > 0 else [])), 1).startswith("no option --no-such-option")
 
 
 def interrupted(folder):
@@ -179,8 +235,11 @@ def interrupted(folder):
     texts = [process.communicate()[1] for process in job]
     assert [process.returncode for process in job] == [130, 0], texts
     assert (out / "checkpoint.pt").exists()
-    waits = ranks(folder, 1, lambda rank: call(folder / "waits"), WORLD_SIZE=2)[0]
-    time.sleep(3)
+    port = free_port()
+    waits = ranks(folder, 1, lambda rank: call(folder / "waits"), WORLD_SIZE=2, MASTER_PORT=port)[0]
+    while not listens(port):
+        assert waits.poll() is None, waits.stderr.read()
+        time.sleep(0.05)
     waits.send_signal(signal.SIGINT)
     assert waits.wait(timeout=20) == 130
 

@@ -8,6 +8,7 @@
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/prior_set.h"
+#include "antigrasp/ranks/ranked_share.h"
 #include "tests/ranks/fake_group.h"
 
 namespace antigrasp {
@@ -37,7 +38,8 @@ TEST(ScoreTogether, GivesRankZeroWhatOneProcessGets) {
   SilentObserver silent;
   const ScoredStage alone = ScoreStage(values, config, "", &silent);
   ThreadRanks(3).Run([&](RankGroup* group) {
-    const ScoredStage shared = ScoreTogether(group, 4, values, config, nullptr, nullptr);
+    RankedShare share(group);
+    const ScoredStage shared = ScoreTogether(&share, 4, values, config, nullptr, nullptr);
     if (!group->leads()) return;
     EXPECT_EQ(StageScoresCsv(0, shared), StageScoresCsv(0, alone));
     for (std::size_t i = 0; i < alone.objects.size(); ++i) {

@@ -24,12 +24,12 @@ def run(*arguments, **more):
     return subprocess.run([PROGRAM, *map(str, arguments)], env=environment(), capture_output=True, text=True, **more)
 
 
-def ranks(size, arguments):
-    """A process a rank, as any launcher starts them. `arguments`: of a rank."""
+def ranks(size, arguments, **more):
+    """A process a rank, as any launcher starts them. `arguments`: of a rank; `more` variables."""
     with socket.socket() as found:
         found.bind(("127.0.0.1", 0))
         port = found.getsockname()[1]
-    shared = {"WORLD_SIZE": size, "LOCAL_WORLD_SIZE": size, "MASTER_ADDR": "127.0.0.1", "MASTER_PORT": port}
+    shared = {"WORLD_SIZE": size, "LOCAL_WORLD_SIZE": size, "MASTER_ADDR": "127.0.0.1", "MASTER_PORT": port, **more}
     return [subprocess.Popen([PROGRAM, *map(str, arguments(rank))], env=environment(RANK=rank, **shared), stdout=subprocess.PIPE,
                              stderr=subprocess.PIPE, text=True) for rank in range(size)]
 
@@ -149,41 +149,44 @@ def launchers(folder):
 
 
 def refused(folder):
-    """Other options, other files, and what one object is refused for: before anything is written."""
+    """Other options, other files, and what one object or all are refused for: before anything is written, in a line of one rank."""
     meshes = objects(folder, 3)
     out = folder / "never.csv"
-    texts = []
 
-    def fails(arguments, codes):
+    def refusal(arguments, code):
         job = ranks(2, arguments)
-        texts[:] = [process.communicate()[1] for process in job]
-        assert [process.returncode for process in job] == codes, texts
-        assert not out.exists()
+        texts = [process.communicate()[1] for process in job]
+        assert [process.returncode for process in job] == [code, code], texts
+        lines = [line for text in texts for line in text.splitlines() if line.startswith("antigrasp (rank ")]
+        assert len(lines) == 1 and not out.exists(), texts
+        return lines[0].removeprefix("antigrasp (")
 
-    fails(lambda rank: ["evaluate", meshes, "--seed", 7 + rank, "--out", out], [2, 2])
-    assert "rank 1 has --seed 8 (start of the job): expected what rank 0 has: --seed 7" in texts[0], texts
-    gripper = [folder / "a.toml", folder / "b.toml"]
-    fails(lambda rank: ["trial", (meshes, folder / "meshes" / "prisms")[rank], "--out", out], [2, 2])
-    assert f"rank 1 has trial {meshes}/prisms" in texts[0], texts
+    assert refusal(lambda rank: ["evaluate", meshes, "--seed", 7 + rank, "--out", out], 2).endswith(
+        "rank 1 has --seed 8 (start of the job): expected what rank 0 has: --seed 7")
+    assert f"rank 1 has trial {meshes}/prisms" in refusal(lambda rank: ["trial", (meshes, meshes / "prisms")[rank], "--out", out], 2)
     damaged = folder / "damaged.h5"
     damaged.write_bytes((folder / "prisms.h5").read_bytes()[:-3000])
-    alone = run("evaluate", damaged, *QUICK, "--out", out)
-    fails(lambda rank: ["evaluate", damaged, *QUICK, "--out", out], [alone.returncode, alone.returncode])
-    line = alone.stderr.removeprefix("antigrasp: ").strip()
-    assert line in texts[0] and line in texts[1] and "(rank 1 on " in texts[1], (line, texts)
+    for arguments in (["evaluate", damaged, *QUICK], ["evaluate", folder / "none"], ["evaluate", meshes, "--no-such-option"],
+                      ["perturb", "random", meshes, "--alpha", "x"]):
+        alone = run(*arguments, "--out", out)
+        line = refusal(lambda rank: [*arguments, "--out", out], alone.returncode)
+        assert line.startswith("rank 0 on ") and line.endswith(alone.stderr.removeprefix("antigrasp: ").strip()), (line, alone.stderr)
+    # One that fails before it meets the others.
+    line = refusal(lambda rank: ["evaluate", meshes, *(["--no-such-option"] if rank == 1 else []), "--out", out], 2)
+    assert line.startswith("rank 1 on ") and "no option --no-such-option" in line, line
     assert not list(folder.glob("*.tmp*")), list(folder.iterdir())
 
 
 def interrupted(folder):
     """Ctrl-C on rank 0 ends all; a trial keeps what it has, and a job of another size goes on to the same bytes."""
-    meshes, out = objects(folder), folder / "trial"
-    call = ["trial", meshes, *QUICK, "--draws", 30]
+    meshes, out = objects(folder, 5), folder / "trial"
+    call = ["trial", meshes, *QUICK, "--draws", 20]
     job = ranks(2, lambda rank: [*call, "--threads", 1, "--out", out])
     begin = time.monotonic()
     while not list(folder.glob("**/executions.csv*")) and not list(folder.glob("**/.*")):
         assert job[0].poll() is None and time.monotonic() - begin < 60, job[0].communicate()
         time.sleep(0.02)
-    time.sleep(1.0)
+    time.sleep(0.3)
     job[1].send_signal(signal.SIGINT)  # which it does not hear
     job[0].send_signal(signal.SIGINT)
     texts = [process.communicate() for process in job]
@@ -200,9 +203,10 @@ def worked(process):
 
 
 def killed(folder):
-    """A rank that is gone ends the others when it has not been heard for 30 s, and nothing is half-written."""
+    """A rank that is gone ends the others when it has not been heard for some time, and nothing is half-written."""
     meshes, out = objects(folder), folder / "scores.csv"
-    job = ranks(2, lambda rank: ["evaluate", meshes, "--num-grasps", 100000, "--max-attempts", 1000000, "--threads", 1, "--out", out])
+    job = ranks(2, lambda rank: ["evaluate", meshes, "--num-grasps", 100000, "--max-attempts", 1000000, "--threads", 1, "--out", out],
+                ANTIGRASP_LOST_AFTER=5)
     while worked(job[1]) < 3.0:  # the start takes one
         assert job[0].poll() is None, job[0].communicate()
         time.sleep(0.05)
@@ -210,7 +214,7 @@ def killed(folder):
     begin = time.monotonic()
     text = job[0].communicate()[1]
     assert job[0].returncode == 1 and time.monotonic() - begin < 60, text
-    assert "is gone" in text and not out.exists(), text
+    assert re.search(r"\(rank 0 on .*\): rank 1 is gone: no sign of it for [5-9] s; what was saved stays", text) and not out.exists(), text
 
 
 with tempfile.TemporaryDirectory() as temporary:

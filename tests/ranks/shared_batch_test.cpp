@@ -126,6 +126,47 @@ TEST(SharedBatch, PartsAreAnotherTrainingThanOnePiece) {
   EXPECT_TRUE(differ);
 }
 
+// Sample i is filled with i, and nothing else of the model is asked.
+class Numbered : public ShapeModel {
+ public:
+  torch::Tensor Sample(std::uint64_t, std::int64_t first, std::int64_t count) override {
+    return torch::arange(first, first + count, torch::kFloat)
+        .view({count, 1, 1, 1, 1})
+        .expand({count, 1, 2, 3, 4})
+        .contiguous();
+  }
+  void BeginEpisode(int, std::int64_t, bool) override {}
+  void BeginFixedEpisode(int, const LatentMixture&) override {}
+  int episode() const override { return 0; }
+  std::int64_t step() const override { return 0; }
+  std::int64_t iterations() const override { return 0; }
+  void Step(const torch::Tensor&) override {}
+  torch::Device device() const override { return torch::kCPU; }
+  std::vector<std::string> ScalarNames() const override { return {}; }
+  std::vector<double> Scalars() override { return {}; }
+  std::string ScalarText() const override { return ""; }
+  torch::Tensor Latents(std::uint64_t, std::int64_t, std::int64_t) const override { return {}; }
+  const LatentMixture& latent() const override { return latent_; }
+  NamedTensors State() const override { return {}; }
+  void Load(const NamedTensors&, const std::string&) override {}
+  void LoadNetworks(const NamedTensors&, const std::string&) override {}
+
+ private:
+  LatentMixture latent_;
+};
+
+TEST(SampleTogether, RankZeroHasEverySampleInItsPlaceForAnyNumberOfRanks) {
+  // 70 samples are three blocks: one rank has two of them, or the last has none.
+  for (const int size : {1, 2, 3, 5}) {
+    ThreadRanks(size).Run([&](RankGroup* group) {
+      Numbered model;
+      const torch::Tensor samples = SampleTogether(group, &model, 7, 100, 70);
+      if (!group->leads()) return;
+      EXPECT_TRUE(samples.equal(model.Sample(7, 100, 70))) << size;
+    });
+  }
+}
+
 TEST(FromLeader, TextStatesAndOrdersArriveAsTheyWere) {
   const NamedTensors state = {{"a/b", torch::arange(6).view({2, 3})}, {"c", torch::tensor(2.5)}};
   ThreadRanks(3).Run([&](RankGroup* group) {

@@ -11,7 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "antigrasp/core/error.h"
+#include "antigrasp/core/exit_code.h"
+#include "antigrasp/core/launch.h"
 #include "antigrasp/ranks/ranked_share.h"
 #include "tests/ranks/fake_group.h"
 
@@ -28,7 +29,10 @@ void RunAll(int ranks, const std::function<void(RankedShare*)>& run) {
       run(&share);
     } catch (const WorkOver&) {
     } catch (const std::exception&) {
-      if (!share.leads()) share.Fail(std::current_exception());
+      try {
+        share.LeaveWith(std::current_exception());
+      } catch (const std::exception&) {
+      }
     }
   });
 }
@@ -122,9 +126,83 @@ TEST(SharedStream, WhatAnotherRankFailsWithLeavesOnRankZeroInTheSameWords) {
         throw;
       }
     });
-    EXPECT_EQ(line, input ? "input: is cut short (mug.h5): expected a whole file"
-                          : "failure: the disk is full");
+    const std::string rank = "rank 1 on " + HostName() + ": ";
+    EXPECT_EQ(line, input ? "input: " + rank + "is cut short (mug.h5): expected a whole file"
+                          : "failure: " + rank + "the disk is full");
   }
+}
+
+// What each rank says, "" for nothing, and its exit code.
+std::vector<std::string> Said(const std::function<void(RankedShare*)>& run) {
+  std::vector<std::string> said(3);
+  ThreadRanks(3).Run([&](RankGroup* group) {
+    RankedShare share(group);
+    std::string& own = said[static_cast<std::size_t>(group->rank())];
+    try {
+      try {
+        run(&share);
+      } catch (const WorkOver&) {
+      } catch (...) {
+        share.LeaveWith(std::current_exception());
+      }
+    } catch (const SaidElsewhere& elsewhere) {
+      own = " " + std::to_string(elsewhere.exit_code());
+    } catch (const std::exception& error) {
+      own = error.what() + (" " + std::to_string(ExitCodeOf(std::current_exception())));
+    }
+  });
+  return said;
+}
+
+TEST(LeaveWith, WhatAllFailWithIsSaidByRankZeroAlone) {
+  const auto missing = [](RankedShare* share) {
+    while (share->leads() && share->TakeNext("failed", 0) < 2) Nap();  // the last to see it
+    throw InputError("no file", "mug.h5", "one");
+  };
+  EXPECT_EQ(Said(missing),
+            (std::vector<std::string>{"no file (mug.h5): expected one 2", " 2", " 2"}));
+}
+
+TEST(LeaveWith, WhatOneFailsWithIsSaidByRankZeroWhereItHears) {
+  const auto run = [](RankedShare* share) {
+    if (share->rank() == 1) throw RuntimeFailure("no memory");
+    StreamShared(
+        share, 1, 1,
+        [&](std::int64_t i) {
+          while (share->TakeNext("failed", 0) == 0) Nap();
+          return i;
+        },
+        [](std::int64_t, std::int64_t) {});
+    if (share->leads()) share->TakeIfThere("what never comes");
+  };
+  EXPECT_EQ(Said(run),
+            (std::vector<std::string>{"rank 1 on " + HostName() + ": no memory 1", " 1", ""}));
+}
+
+TEST(LeaveWith, ARankThatRankZeroDoesNotHearSpeaksForItself) {
+  std::atomic<bool> said{false};
+  ThreadRanks(2).Run([&](RankGroup* group) {
+    RankedShare share(group);
+    try {
+      if (share.leads()) {
+        while (!said) Nap();
+        throw SaidElsewhere(1);  // a call to the other has failed
+      }
+      throw InputError("no file", "mug.h5", "one");
+    } catch (...) {
+      const std::exception_ptr error = std::current_exception();
+      try {
+        share.LeaveWith(error);
+      } catch (const SaidElsewhere& elsewhere) {
+        EXPECT_TRUE(share.leads());
+        EXPECT_EQ(elsewhere.exit_code(), 2);  // that of the other
+      } catch (const InputError&) {
+        EXPECT_FALSE(share.leads());
+        said = true;
+      }
+    }
+  });
+  EXPECT_TRUE(said);
 }
 
 TEST(SharedStream, AnExceptionOnRankZeroEndsTheOthersAtTheNextLoop) {
