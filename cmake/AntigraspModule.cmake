@@ -33,6 +33,7 @@ function(antigrasp_test name)
   target_link_libraries(${name}_test PRIVATE antigrasp_options ${ARG_LIBS} antigrasp_test_support
                                              GTest::gtest GTest::gtest_main)
   target_compile_options(${name}_test PRIVATE -O1)  # a quarter faster to compile than -O3
+  set_target_properties(${name}_test PROPERTIES ANTIGRASP_TEST ON)  # CompilerOptions.cmake
   if(ARG_LIBS MATCHES "antigrasp::(models|checkpoints|gan|train|ranks|report)(;|$)")
     antigrasp_read_precompiled(${name}_test torch_tests)
   else()

@@ -21,7 +21,7 @@ TEST(DeflatedPart, OfNothingIsNothing) {
 
 TEST(DeflatedPart, InflatesToItsBytes) {
   std::string mixed;
-  for (int i = 0; i < 100000; ++i) mixed += static_cast<char>(i * i / 7);
+  for (unsigned i = 0; i < 100000; ++i) mixed += static_cast<char>(i * i / 7);
   const DeflatedPart part = Deflated(mixed);
   EXPECT_EQ(part.size, mixed.size());
   EXPECT_EQ(Inflated(part.stream, part.size), mixed);
