@@ -44,7 +44,6 @@ def words_of(program, words, number):
     return [program, *(word.replace("ROUND", str(number)) for word in words), *plain]
 
 
-
 def scoring(folder, kind):
     with open(os.path.join(folder, f"{kind}.csv"), encoding="utf-8") as file:
         return [float(row["seconds"]) for row in csv.DictReader(file)]
