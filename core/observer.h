@@ -20,6 +20,11 @@ class RunObserver {
   virtual bool StopRequested() const = 0;
 };
 
+// A phase without a label is not shown.
+inline ProgressFn PhaseOf(RunObserver* observer, const std::string& label) {
+  return label.empty() ? ProgressFn() : observer->Phase(label);
+}
+
 // For work that nobody watches: shows nothing, never stops.
 class SilentObserver : public RunObserver {
  public:

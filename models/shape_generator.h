@@ -2,6 +2,7 @@
 
 #include <torch/nn/module.h>
 
+#include <cstdint>
 #include <memory>
 
 #include "antigrasp/core/rng.h"
@@ -19,6 +20,10 @@ class ShapeGenerator : public torch::nn::Module {
   virtual torch::Tensor ForwardFolded(const torch::Tensor& z) = 0;  // [N, 8, h, h, h]
 
   virtual void Initialize(RngStream* rng) = 0;  // fresh weights
+
+  // How many numbers z draws a shape by, where forward() takes as many more behind z
+  // [N, latent + these], which are added to them; 0 where a shape is drawn node by node.
+  virtual std::int64_t PartNumbers() const { return 0; }
 
   // Whether evaluation uses averages of batches, and the beginning of such an average: from then on
   // every call of forward() in training mode counts, with equal weight.

@@ -177,11 +177,14 @@ void SolidGeneratorImpl::Initialize(RngStream* rng) {
   }
 }
 
+std::int64_t SolidGeneratorImpl::PartNumbers() const { return options_.parts * kRaws; }
+
 torch::Tensor SolidGeneratorImpl::Parts(const torch::Tensor& z) {
-  torch::Tensor x = z;
+  torch::Tensor x = z.narrow(1, 0, options_.latent);
   for (torch::nn::Linear& layer : layers_) {
     x = layer.get() == layers_.front().get() ? layer(x) : layer(torch::relu(x));
   }
+  if (z.size(1) > options_.latent) x = x + z.narrow(1, options_.latent, PartNumbers());
   x = x.view({z.size(0), options_.parts, kRaws});
   Draft draft = Drawn(x, options_.form);
   PutIntoTheMiddle(0.5 - kFreeCells / options_.resolution, &draft);

@@ -19,11 +19,13 @@ class SolidGeneratorImpl : public ShapeGenerator {
   explicit SolidGeneratorImpl(const ModelOptions& options);  // weights of a fixed stream
   torch::Tensor forward(const torch::Tensor& z) override;
   torch::Tensor ForwardFolded(const torch::Tensor& z) override;
+  std::int64_t PartNumbers() const override;
 
   // Fresh weights: parts of middle size about the centre, each z another union.
   void Initialize(RngStream* rng) override;
 
-  // What is drawn: z [N, latent] -> [N, parts, kPartColumns], usable as SolidField takes them.
+  // What is drawn: z [N, latent] or [N, latent + PartNumbers()] -> [N, parts, kPartColumns], usable
+  // as SolidField takes them whatever is added.
   torch::Tensor Parts(const torch::Tensor& z);
 
  private:

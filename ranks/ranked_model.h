@@ -72,6 +72,8 @@ class RankedModel : public ShapeModel {
   torch::Tensor Sample(std::uint64_t seed, std::int64_t first, std::int64_t count) override;
   torch::Tensor Latents(std::uint64_t seed, std::int64_t first, std::int64_t count) const override;
   const LatentMixture& latent() const override { return model_->latent(); }
+  std::int64_t PartNumbers() const override { return model_->PartNumbers(); }
+  torch::Tensor Draw(const torch::Tensor& latents) override { return model_->Draw(latents); }
   NamedTensors State() const override { return model_->State(); }
   void Load(const NamedTensors& state, const std::string& origin) override;
   void LoadNetworks(const NamedTensors& state, const std::string& origin) override;

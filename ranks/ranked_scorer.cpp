@@ -167,7 +167,7 @@ ScorerMaker RankedScorer(RankGroup* group, WorkShare* share) {
       const std::int64_t job = (*jobs)++;
       TellOrHear(group, {Order::kScore, job});
       const torch::Tensor told = group->TensorFromLeader(values);
-      return ScoreTogether(share, job, told, config, judge, observer->Phase(name));
+      return ScoreTogether(share, job, told, config, judge, PhaseOf(observer, name));
     };
   };
 }

@@ -45,8 +45,9 @@ def pyplot():
     return plt
 
 
-def save_figure(figure, path):
-    figure.tight_layout()
+def save_figure(figure, path, bottom=0.0):
+    """bottom: share of the height that is left for what is not an axis."""
+    figure.tight_layout(rect=(0, bottom, 1, 1))
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=110, metadata={"Software": None})
 

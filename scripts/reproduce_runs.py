@@ -30,7 +30,7 @@ def rows_of(folder):
 def keep(folder, results):
     """Copies the tables of a run and its control beside the documents, under the same names."""
     for where, to in ((folder, results), (folder / "control", results / "control")):
-        for file in [where / "statistics.csv", *where.glob("episode_*/compare.csv")]:
+        for file in [where / "statistics.csv", *where.glob("episode_*/compare.csv"), *where.glob("episode_*/qd.txt")]:
             if file.exists():
                 target = to / file.relative_to(where)
                 target.parent.mkdir(parents=True, exist_ok=True)
@@ -80,12 +80,21 @@ def surfaces(results, episode):
     return {r["measure"]: (float(r["samples"] or "nan"), float(r["reference"] or "nan")) for r in csv.DictReader(open(file))}
 
 
-SURFACE_COLUMNS = ("COV", "1-NNA", "MMD", "diversity", "Vendi score", "roughness, degrees")
+# Column: (measure, format, whether as a share of the reference's). Runs of before a measure was taken have "-".
+SURFACES = {"COV": ("coverage", ".0%", False), "1-NNA": ("nna", ".2f", False), "with normals": ("nna_normals", ".2f", False),
+            "MMD": ("matching", ".3f", False), "near-duplicates": ("near_duplicates", ".0%", False), "diversity": ("diversity", ".2f", False),
+            "Vendi score": ("vendi", ".0f", False), "roughness, degrees": ("roughness", ".1f", False),
+            "flat edges, of the prior's": ("flat_share", ".2f", True), "creases, of the prior's": ("crease_share", ".2f", True)}
+SURFACE_COLUMNS = tuple(SURFACES)
 
 
 def surface_cells(measured):
     """The cells of SURFACE_COLUMNS."""
-    if not measured:
-        return " | ".join("-" * len(SURFACE_COLUMNS))
-    formats = {"coverage": ".0%", "nna": ".2f", "matching": ".3f", "diversity": ".2f", "vendi": ".0f", "roughness": ".1f"}
-    return " | ".join(format(measured[name][0], form) for name, form in formats.items())
+
+    def cell(measure, form, of_reference):
+        if measure not in measured:
+            return "-"
+        samples, reference = measured[measure]
+        return format(samples / reference if of_reference else samples, form)
+
+    return " | ".join(cell(*column) for column in SURFACES.values())

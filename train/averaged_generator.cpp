@@ -4,6 +4,8 @@
 #include <torch/utils.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -16,12 +18,17 @@ namespace {
 
 constexpr std::int64_t kStatisticsBlocks = 32;  // 1,024 samples: a channel's mean to 3 % of its sd
 
+// The components' weight is gone through by multiples of the golden ratio: any number of samples in
+// a row are spread over the components evenly, so that none is drawn again long before others were
+// drawn at all.
 torch::Tensor LatentBlock(const LatentMixture& mixture, std::uint64_t seed, std::string_view domain,
                           std::int64_t block) {
+  const double first = RngStream(seed, domain).Uniform();
   std::vector<torch::Tensor> rows;
-  for (std::int64_t i = 0; i < kSampleBlock; ++i) {
-    RngStream rng(seed, domain, static_cast<std::uint64_t>(block * kSampleBlock + i));
-    rows.push_back(DrawLatent(mixture, &rng));
+  for (std::int64_t i = block * kSampleBlock; i < (block + 1) * kSampleBlock; ++i) {
+    RngStream rng(seed, domain, static_cast<std::uint64_t>(i));
+    const double turns = first + static_cast<double>(i) / std::numbers::phi;
+    rows.push_back(DrawLatent(mixture, turns - std::floor(turns), &rng));
   }
   return torch::stack(rows);
 }
@@ -90,6 +97,17 @@ torch::Tensor AveragedGenerator::Sample(const LatentMixture& latent, std::uint64
   return OfBlocks(first, count, torch::empty({0, 1, r, r, r}), [&](std::int64_t block) {
     return network_->forward(LatentBlock(latent, seed, "latent", block).to(device_));
   });
+}
+
+torch::Tensor AveragedGenerator::Draw(const torch::Tensor& latents) {
+  torch::NoGradGuard no_grad;
+  RefreshStatistics();
+  network_->eval();
+  std::vector<torch::Tensor> parts;
+  for (const torch::Tensor& block : latents.split(kSampleBlock)) {
+    parts.push_back(network_->forward(block.to(device_)).cpu());
+  }
+  return torch::cat(parts);
 }
 
 void AveragedGenerator::RefreshStatistics() {

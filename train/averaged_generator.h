@@ -36,6 +36,10 @@ class AveragedGenerator {
   torch::Tensor Sample(const LatentMixture& latent, std::uint64_t seed, std::int64_t first,
                        std::int64_t count);
 
+  // Network values [n, 1, r, r, r] float32 on the CPU of latents [n, ...] as SampleLatents gives
+  // them.
+  torch::Tensor Draw(const torch::Tensor& latents);
+
   const std::shared_ptr<ShapeGenerator>& network() const { return network_; }
   void WeightsChanged() { statistics_stale_ = true; }  // by someone else
 

@@ -7,9 +7,15 @@
 #include <utility>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/train/refined_latents.h"
 #include "antigrasp/train/run_output.h"
 
 namespace antigrasp {
+namespace {
+
+constexpr const char* kRefining = "refining the elites";
+
+}  // namespace
 
 StageScorer GraspabilityScorer(const RunConfig& config, RunObserver* observer) {
   return [&config, observer](const torch::Tensor& values, const std::string& name) {
@@ -19,7 +25,7 @@ StageScorer GraspabilityScorer(const RunConfig& config, RunObserver* observer) {
 
 StageScorer JudgedScorer(const RunConfig& config, Judge* judge, RunObserver* observer) {
   return [&config, judge, observer](const torch::Tensor& values, const std::string& name) {
-    return ScoreStageBy(judge, values, config, observer->Phase(name));
+    return ScoreStageBy(judge, values, config, PhaseOf(observer, name));
   };
 }
 
@@ -82,6 +88,32 @@ torch::Tensor CemLoop::Sample() {
   return torch::cat(chunks);
 }
 
+// Where parts can be moved, with their numbers.
+torch::Tensor CemLoop::EliteLatents(const Selection& selection) const {
+  const torch::Tensor latents =
+      model_->Latents(StageSeed(config_, model_->episode()), 0, config_.cem.samples)
+          .index_select(0, torch::tensor(selection.elites, torch::kLong));
+  const std::int64_t lacking = config_.cem.part_step > 0.0
+                                   ? config_.model.latent + model_->PartNumbers() - latents.size(1)
+                                   : 0;
+  return lacking > 0 ? torch::constant_pad_nd(latents, {0, lacking}) : latents;
+}
+
+torch::Tensor CemLoop::WithRefinedParts(const torch::Tensor& latents) {
+  const int number = model_->episode();
+  const LatentTrials trials{.trials = config_.cem.refine_steps,
+                            .first = config_.model.latent,
+                            .step = config_.cem.part_step};
+  const LatentJudge judge = [&](const torch::Tensor& tried) {
+    ScoredStage scored = scorer_(model_->Draw(tried), "");
+    selector_.LeaveOutside(scored.values, &scored.graspabilities);
+    return scored.graspabilities;
+  };
+  RngStream rng(config_.seed, "refine", static_cast<std::uint64_t>(number));
+  return RefineLatents(latents, trials, judge, &rng,
+                       observer_->Phase(StageName(number, kRefining)));
+}
+
 Episode CemLoop::Finish() {
   const int number = model_->episode();
   Episode episode;
@@ -97,10 +129,15 @@ Episode CemLoop::Finish() {
     observer_->Note("episode " + std::to_string(number) + ": " + std::to_string(outside) +
                     " samples are beyond cem.spread of the prior set and not kept");
   }
-  const bool refine = config_.cem.refine_steps > 0;
-  episode.elites = selector_.Elites(
-      episode.scored, episode.selection, number,
-      refine ? observer_->Phase(StageName(number, "refining the elites")) : ProgressFn());
+  if (config_.cem.mode == EpisodeMode::kLatent) episode.latents = EliteLatents(episode.selection);
+  if (RefinesParts(config_.cem)) {
+    episode.latents = WithRefinedParts(episode.latents);
+    episode.elites = model_->Draw(episode.latents);
+  } else {
+    episode.elites = selector_.Elites(
+        episode.scored, episode.selection, number,
+        PhaseOf(observer_, RefinesMeshes(config_.cem) ? StageName(number, kRefining) : ""));
+  }
   episode.row = Summarize(number, episode.scored, prior_, config_);
   for (const std::int64_t i : episode.selection.elites) {
     const double value = episode.scored.graspabilities[static_cast<std::size_t>(i)];
@@ -113,11 +150,10 @@ Episode CemLoop::Finish() {
 void CemLoop::Next(const Episode& episode) {
   const int number = model_->episode();
   if (config_.cem.mode == EpisodeMode::kLatent) {
-    const torch::Tensor z =
-        model_->Latents(StageSeed(config_, number), 0, config_.cem.samples)
-            .index_select(0, torch::tensor(episode.selection.elites, torch::kLong));
+    const CemOptions& cem = config_.cem;
     model_->BeginFixedEpisode(number + 1,
-                              AroundElites(z, config_.cem.step, config_.cem.prior_fraction));
+                              AroundElites(episode.latents, config_.model.latent, cem.step,
+                                           cem.step * cem.part_step, cem.prior_fraction));
   } else {
     TrainOn(selector_.TrainingSet(episode.elites, episode.selection));
     model_->BeginEpisode(number + 1, config_.cem.iterations, config_.cem.restart);

@@ -14,7 +14,8 @@
 
 namespace antigrasp {
 
-// Scores network values [N, 1, n, n, n], value i as sample i; `name` is what a person waits for.
+// Scores network values [N, 1, n, n, n], value i as sample i; `name` is what a person waits for,
+// empty: nothing is shown.
 using StageScorer =
     std::function<ScoredStage(const torch::Tensor& values, const std::string& name)>;
 
@@ -27,8 +28,9 @@ StageScorer JudgedScorer(const RunConfig& config, Judge* judge, RunObserver* obs
 // A finished episode: its samples scored, what the next one would train on, its row of statistics.
 struct Episode {
   ScoredStage scored;
-  Selection selection;   // at least one elite
-  torch::Tensor elites;  // network values [K, 1, n, n, n] that the next one would learn from
+  Selection selection;    // at least one elite
+  torch::Tensor elites;   // network values [K, 1, n, n, n] that the next one would learn from
+  torch::Tensor latents;  // latent mode: what they are drawn from, and the next is drawn around
   StageStatistics row;
 };
 
@@ -74,6 +76,8 @@ class CemLoop {
  private:
   void TrainOn(const torch::Tensor& shapes);
   torch::Tensor Sample();
+  torch::Tensor EliteLatents(const Selection& selection) const;
+  torch::Tensor WithRefinedParts(const torch::Tensor& latents);
 
   const RunConfig& config_;
   ShapeModel* model_;

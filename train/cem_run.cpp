@@ -51,7 +51,7 @@ void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder&
 
 // nullptr: the graspability scores.
 std::unique_ptr<Judge> JudgeFor(const RunConfig& config, const RunParts& parts) {
-  if (config.cem.refine_steps > 0 && !parts.refine) {
+  if (RefinesMeshes(config.cem) && !parts.refine) {
     throw InputError("nobody refines elites for cem.refine_steps", "configuration", "0");
   }
   if (config.cem.score == kEpsilonScore) return nullptr;

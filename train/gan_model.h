@@ -34,6 +34,8 @@ class GanModel : public ShapeModel {
   torch::Tensor Sample(std::uint64_t seed, std::int64_t first, std::int64_t count) override;
   torch::Tensor Latents(std::uint64_t seed, std::int64_t first, std::int64_t count) const override;
   const LatentMixture& latent() const override { return trainer_.latent(); }
+  std::int64_t PartNumbers() const override { return trainer_.PartNumbers(); }
+  torch::Tensor Draw(const torch::Tensor& latents) override { return trainer_.Draw(latents); }
 
   NamedTensors State() const override { return trainer_.State(); }
   void Load(const NamedTensors& state, const std::string& origin) override;

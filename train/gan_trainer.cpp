@@ -53,6 +53,7 @@ struct GanTrainer::Impl {
   torch::Tensor Progress() const;  // [3] int64: episode, iterations, step
   void SetProgress(const torch::Tensor& progress);
   LatentMixture MixtureToTake(const NamedTensors& state) const;
+  torch::Tensor Faired(const torch::Tensor& drawn) const;
   NamedTensors Networks(
       const LatentMixture& mixture) const;  // without what only goes on training needs
 
@@ -203,11 +204,24 @@ void GanTrainer::Impl::SetProgress(const torch::Tensor& progress) {
   average.WeightsChanged();
 }
 
-// With as many components as the state has; what it lacks is refused when it is taken.
+torch::Tensor GanTrainer::Impl::Faired(const torch::Tensor& drawn) const {
+  if (!(options.fairing > 0.0)) return drawn;
+  const double cells = model.resolution;  // along the cube's side
+  const FewBends fairing{.weight = options.fairing, .power = options.fairing_power};
+  const torch::Tensor distances = Distances(drawn.cpu().to(torch::kFloat), model) * cells;
+  return NetworkValues(WithFewBends(distances, fairing) / cells, model);
+}
+
+// As large as that of the state, with numbers of parts or without; what it lacks is refused when
+// it is taken.
 LatentMixture GanTrainer::Impl::MixtureToTake(const NamedTensors& state) const {
   const torch::Tensor* weights = FindTensor(state, "latent/weights");
   const std::int64_t n = weights != nullptr && weights->dim() == 1 ? weights->size(0) : 1;
-  return {torch::empty({n}), torch::empty({n, model.latent}), torch::empty({n, model.latent})};
+  const torch::Tensor* means = FindTensor(state, "latent/means");
+  const std::int64_t all = model.latent + generator->PartNumbers();
+  const bool parts = means != nullptr && means->dim() == 2 && means->size(1) == all;
+  const std::int64_t numbers = parts ? all : model.latent;
+  return {torch::empty({n}), torch::empty({n, numbers}), torch::empty({n, numbers})};
 }
 
 NamedTensors GanTrainer::Impl::Networks(const LatentMixture& mixture) const {
@@ -302,13 +316,14 @@ torch::Tensor GanTrainer::Latents(std::uint64_t seed, std::int64_t first,
 }
 
 torch::Tensor GanTrainer::Sample(std::uint64_t seed, std::int64_t first, std::int64_t count) {
-  const torch::Tensor drawn = impl_->average.Sample(impl_->latent, seed, first, count);
-  if (!(impl_->options.fairing > 0.0)) return drawn;
-  const double cells = impl_->model.resolution;  // along the cube's side
-  const FewBends fairing{.weight = impl_->options.fairing, .power = impl_->options.fairing_power};
-  const torch::Tensor distances = Distances(drawn.cpu().to(torch::kFloat), impl_->model) * cells;
-  return NetworkValues(WithFewBends(distances, fairing) / cells, impl_->model);
+  return impl_->Faired(impl_->average.Sample(impl_->latent, seed, first, count));
 }
+
+torch::Tensor GanTrainer::Draw(const torch::Tensor& latents) {
+  return impl_->Faired(impl_->average.Draw(latents));
+}
+
+std::int64_t GanTrainer::PartNumbers() const { return impl_->generator->PartNumbers(); }
 
 const LatentMixture& GanTrainer::latent() const { return impl_->latent; }
 

@@ -64,6 +64,10 @@ class GanTrainer {
   // values [count, 1, r, r, r] float32 on the CPU. Sample i does not depend on count or batch.
   torch::Tensor Sample(std::uint64_t seed, std::int64_t first, std::int64_t count);
 
+  // Values [n, 1, r, r, r] of latents [n, ...] that are none of a sample's.
+  torch::Tensor Draw(const torch::Tensor& latents);
+  std::int64_t PartNumbers() const;  // shape_generator.h
+
   // The z of these samples, [count, latent]; the mixture they are drawn from.
   torch::Tensor Latents(std::uint64_t seed, std::int64_t first, std::int64_t count) const;
   const LatentMixture& latent() const;

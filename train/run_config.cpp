@@ -23,6 +23,8 @@ void Bind(OptionTable* table, CemOptions* o) {
              "from each other; 0 = any");
   table->Add("cem.step", &o->step, 1e-3, 1,
              "latent mode: standard deviation of z around an elite's; 1 forgets the elites");
+  table->Add("cem.part_step", &o->part_step, 0, 10,
+             "latent mode of solids: how far a refining trial moves the numbers of the parts");
   table->Add("cem.select", &o->select, "keep the least graspable, or random ones (the control)");
   table->Add(
       "cem.score", &o->score, {},
@@ -110,9 +112,14 @@ void Validate(const RunConfig& config, const std::string& origin) {
     throw InputError("cem.keep = " + std::to_string(config.cem.keep), origin,
                      "at most cem.samples = " + std::to_string(config.cem.samples));
   }
-  if (config.cem.refine_steps > 0 && config.cem.mode == EpisodeMode::kLatent) {
+  const bool latent = config.cem.mode == EpisodeMode::kLatent;
+  if (config.cem.part_step > 0.0 && !(latent && config.model.kind == ModelKind::kSolids)) {
+    throw InputError("cem.part_step", origin,
+                     "cem.mode = latent and model.kind = solids, whose shapes have parts");
+  }
+  if (config.cem.refine_steps > 0 && latent && !(config.cem.part_step > 0.0)) {
     throw InputError("cem.refine_steps with cem.mode = latent", origin,
-                     "cem.mode = gan: in latent mode no elite is learnt from");
+                     "cem.mode = gan, or cem.part_step > 0: in latent mode parts are refined");
   }
   if (config.gan.batch % config.model.pack != 0) {
     throw InputError("model.pack = " + std::to_string(config.model.pack), origin,

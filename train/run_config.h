@@ -54,6 +54,9 @@ struct CemOptions {
   // from theirs is not kept. 0 = any distance will do.
   double spread = 0.0;
   double step = 0.5;  // latent mode: how far z strays from an elite's (latent_mixture.h)
+  // Latent mode of networks that draw parts: how far the numbers of the parts themselves are moved
+  // in a refining trial (refined_latents.h). Samples stray `step` times as far. 0 = not at all.
+  double part_step = 0.0;
   EliteOrder select = EliteOrder::kGraspability;
   // Who scores the samples, lower = kept: "epsilon" (graspability), "settled", "trial",
   // "trial:PROTOCOL" or "judge:COMMAND" (docs/judges.md).
@@ -62,7 +65,8 @@ struct CemOptions {
   // Elites are learnt from as the exact distances to their meshes, not as what the generator drew.
   bool redistance = false;
   // Steps of a descent on the share of grasps that hold, at the metric's friction, which every
-  // elite is changed by before it is learnt from (refined_elites.h). 0 = none.
+  // elite is changed by before it is learnt from (refined_elites.h). Latent mode: trials that move
+  // the parts of every elite by the score of the loop (refined_latents.h). 0 = none.
   int refine_steps = 0;
   double refine_hausdorff = 5.0;  // how far its surface may move, percent of its diagonal
   double prior_fraction = 0.0;    // prior shapes mixed into the elites, as a share of `keep`
@@ -73,6 +77,15 @@ struct CemOptions {
   int checkpoint_every = 500;  // GAN updates between checkpoints
 };
 void Bind(OptionTable* table, CemOptions* options);  // keys "cem.*"
+
+// Whether elites are changed as meshes (refined_elites.h), and whether as what z and the numbers of
+// the parts draw (refined_latents.h).
+inline bool RefinesMeshes(const CemOptions& cem) {
+  return cem.refine_steps > 0 && cem.mode == EpisodeMode::kGan;
+}
+inline bool RefinesParts(const CemOptions& cem) {
+  return cem.refine_steps > 0 && cem.mode == EpisodeMode::kLatent;
+}
 
 // Everything a run depends on. Saved resolved as RUN/config.toml and inside every checkpoint.
 struct RunConfig {

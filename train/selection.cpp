@@ -60,7 +60,7 @@ EliteRefiner InThreads(MeshRefiner refine) {
 
 EliteSelector::EliteSelector(const RunConfig& config, torch::Tensor prior, EliteRefiner refine)
     : config_(config), prior_(std::move(prior)), refine_(std::move(refine)) {
-  AG_CHECK(config_.cem.refine_steps == 0 || refine_, "somebody refines the elites");
+  AG_CHECK(!RefinesMeshes(config_.cem) || refine_, "somebody refines the elites");
   if (config_.cem.spread > 0.0 && prior_.size(0) > 1) spread_.emplace(prior_, config_.cem.spread);
   if (config_.cem.variant != EliteRule::kStratified) return;
   const std::vector<std::int64_t> chosen =
@@ -133,7 +133,7 @@ Selection EliteSelector::Select(const ScoredStage& scored, int episode) const {
 
 torch::Tensor EliteSelector::Elites(const ScoredStage& scored, const Selection& selection,
                                     int episode, const ProgressFn& progress) const {
-  if (config_.cem.refine_steps == 0 && !config_.cem.redistance) {
+  if (!RefinesMeshes(config_.cem) && !config_.cem.redistance) {
     return Rows(scored.values, selection.elites);
   }
   return ExactValues(scored, selection.elites, episode, progress);
@@ -150,7 +150,7 @@ torch::Tensor EliteSelector::ExactValues(const ScoredStage& scored,
     return scored.objects[static_cast<std::size_t>(indices[i])].mesh;
   };
   std::vector<TriangleMesh> refined;
-  const bool refine = config_.cem.refine_steps > 0;
+  const bool refine = RefinesMeshes(config_.cem);
   if (refine) {
     std::vector<RoughElite> rough;
     for (std::size_t i = 0; i < indices.size(); ++i) {

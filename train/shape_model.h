@@ -55,6 +55,11 @@ class ShapeModel {
                                 std::int64_t count) const = 0;
   virtual const LatentMixture& latent() const = 0;  // the distribution of z
 
+  // How many numbers that z draws a shape by latents may carry behind z, to be added to them; the
+  // values [n, 1, n, n, n] of such latents, [n, latent + these], or of plain z.
+  virtual std::int64_t PartNumbers() const = 0;
+  virtual torch::Tensor Draw(const torch::Tensor& latents) = 0;
+
   // The whole state by name, progress included. It may share storage with the model.
   virtual NamedTensors State() const = 0;
   // Take a State, or what of it is enough to sample and to begin an episode; more is overlooked.

@@ -117,7 +117,7 @@ std::uint64_t StageSeed(const RunConfig& config, int episode) {
 
 ScoredStage ScoreStage(const torch::Tensor& values, const RunConfig& config,
                        const std::string& name, RunObserver* observer) {
-  return ScoreSamples(values, Every(values.size(0)), config, observer->Phase(name));
+  return ScoreSamples(values, Every(values.size(0)), config, PhaseOf(observer, name));
 }
 
 ScoredStage ScoreSamples(const torch::Tensor& values, const std::vector<std::int64_t>& indices,

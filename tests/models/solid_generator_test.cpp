@@ -213,6 +213,20 @@ TEST(SolidGenerator, TurnedPartsAreUprightRoundAndShareOneAxisWhateverIsDrawn) {
   EXPECT_LT((grids - grids.transpose(3, 4)).abs().max().item<double>(), 1e-4);
 }
 
+TEST(SolidGenerator, NumbersBehindZAreAddedToWhatItDraws) {
+  SolidGenerator generator(Solids());
+  const std::int64_t numbers = generator->PartNumbers();
+  ASSERT_EQ(numbers, 3 * 19);
+  const torch::Tensor z = Noise(4, 1.0), none = torch::zeros({4, numbers});
+  EXPECT_TRUE(torch::equal(generator(torch::cat({z, none}, 1)), generator(z)));
+  RngStream rng(4, "solid_generator_test");
+  const torch::Tensor moved = NormalTensor({1, numbers}, 1.0, &rng);
+  const torch::Tensor drawn = generator(torch::cat({z, moved.expand({4, -1})}, 1));
+  torch::NoGradGuard no_grad;  // as biases of the last layer would be
+  generator->named_parameters()["layer4.bias"].add_(moved[0]);
+  EXPECT_LT((drawn - generator(z)).abs().max().item<double>(), 1e-4);
+}
+
 TEST(SolidGenerator, WeightsDependOnTheStreamOnly) {
   SolidGenerator a(Solids()), b(Solids());
   RngStream one(1, "a"), same(1, "a"), other(2, "a");

@@ -147,6 +147,8 @@ class Numbered : public ShapeModel {
   std::string ScalarText() const override { return ""; }
   torch::Tensor Latents(std::uint64_t, std::int64_t, std::int64_t) const override { return {}; }
   const LatentMixture& latent() const override { return latent_; }
+  std::int64_t PartNumbers() const override { return 0; }
+  torch::Tensor Draw(const torch::Tensor&) override { return {}; }
   NamedTensors State() const override { return {}; }
   void Load(const NamedTensors&, const std::string&) override {}
   void LoadNetworks(const NamedTensors&, const std::string&) override {}

@@ -6,10 +6,13 @@
 
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/shape_set.h"
+#include "antigrasp/models/sdf_values.h"
+#include "antigrasp/train/cem_loop.h"
 #include "antigrasp/train/cem_run.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
 #include "tests/train/run_files.h"
+#include "tests/train/sphere_model.h"
 #include "tests/train/tiny_run.h"
 
 namespace antigrasp {
@@ -51,6 +54,66 @@ TEST(CemRefine, ElitesAreRefinedInTheRunAndNotInItsControl) {
         std::count_if(grid.values.begin(), grid.values.end(), [](float v) { return v > 0.0F; });
     EXPECT_NEAR(static_cast<double>(inside), 3706.0, 60.0);
   }
+}
+
+// Spheres of radius 0.2, 0.21, ... 0.27, as network values.
+torch::Tensor PriorSpheres(const RunConfig& config) {
+  std::vector<torch::Tensor> spheres;
+  for (int i = 0; i < 8; ++i) {
+    const torch::Tensor distances = 0.2 + 0.01 * i - shapes::Radii(config.model.resolution);
+    spheres.push_back(NetworkValues(distances, config.model));
+  }
+  return torch::stack(spheres).to(torch::kHalf);
+}
+
+double Volume(const TriangleMesh& mesh) {
+  double sixfold = 0.0;
+  for (const auto& face : mesh.faces) {
+    sixfold += mesh.vertices[static_cast<std::size_t>(face[0])].dot(
+        mesh.vertices[static_cast<std::size_t>(face[1])].cross(
+            mesh.vertices[static_cast<std::size_t>(face[2])]));
+  }
+  return sixfold / 6.0;
+}
+
+// The smaller a sphere, the lower its score: parts shrink until the spread of the prior set ends,
+// a hundredth below its smallest sphere. z alone draws radii of 4/5 to 6/5 of 0.235.
+TEST(CemRefine, LatentModeMovesPartsToLowerScoresWithinThePriorsSpread) {
+  RunConfig config = shapes::Tiny();
+  config.cem.mode = EpisodeMode::kLatent;
+  config.cem.spread = 100.0;
+  config.cem.prior_fraction = 0.0;
+  config.cem.samples = 16;
+  config.cem.keep = 6;
+  config.cem.part_step = 0.1;
+  config.cem.refine_steps = 60;
+  shapes::SphereModel model(config, /*part_numbers=*/2);
+  StoppingObserver observer;
+  const StageScorer by_volume = [&](const torch::Tensor& values, const std::string&) {
+    return ScoreStageBy(Volume, values, config, nullptr);
+  };
+  CemLoop loop(config, &model, PriorSpheres(config), by_volume, &observer);
+  loop.Begin();
+  loop.ScorePrior("spheres");
+  while (!loop.trained()) loop.TrainStep();
+  const Episode episode = loop.Finish();
+  const std::int64_t latent = config.model.latent;
+  ASSERT_EQ(episode.latents.size(0), std::ssize(episode.selection.elites));
+  ASSERT_EQ(episode.latents.size(1), latent + 2);
+  const torch::Tensor sampled =
+      model.Latents(StageSeed(config, 0), 0, config.cem.samples)
+          .index_select(0, torch::tensor(episode.selection.elites, torch::kLong));
+  EXPECT_TRUE(torch::equal(episode.latents.narrow(1, 0, latent), sampled));
+  EXPECT_TRUE(torch::equal(episode.elites, model.Draw(episode.latents)));
+  for (const torch::Tensor& elite : episode.elites.split(1)) {
+    EXPECT_NEAR(model.MeanRadius(elite), 0.19, 0.005);
+  }
+  loop.Next(episode);
+  ASSERT_EQ(model.latent().means.size(1), latent + 2);
+  EXPECT_TRUE(torch::equal(model.latent().means.narrow(1, latent, 2),
+                           episode.latents.narrow(1, latent, 2)));
+  const torch::Tensor stray = model.latent().deviations.narrow(1, latent, 2);
+  EXPECT_NEAR(stray.max().item<double>(), config.cem.step * config.cem.part_step, 1e-7);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST(GanModel, TrainsAndDrawsAsItsTrainerDoes) {
   EXPECT_TRUE(torch::equal(model.Sample(9, 1, 2), trainer.Sample(9, 1, 2)));
   EXPECT_TRUE(torch::equal(model.Latents(9, 1, 2), trainer.Latents(9, 1, 2)));
 
-  const LatentMixture moved = AroundElites(torch::ones({1, 3}), 0.5, 0.0);
+  const LatentMixture moved = AroundElites(torch::ones({1, 3}), 3, 0.5, 0.0, 0.0);
   model.BeginFixedEpisode(3, moved);
   EXPECT_EQ(model.iterations(), 0);
   EXPECT_TRUE(torch::equal(model.latent().means, moved.means));

@@ -57,6 +57,7 @@ select = "random"
 score = "judge:ours"
 refine_steps = 16
 refine_hausdorff = 1.5
+part_step = 0.45
 prior_fraction = 0.75
 prior_scored = 13
 compared = 14
@@ -91,6 +92,7 @@ TEST(RunConfig, BindsEveryKeyToItsOwnField) {
   EXPECT_EQ(config.cem.score, "judge:ours");
   EXPECT_EQ(config.cem.refine_steps, 16);
   EXPECT_EQ(config.cem.refine_hausdorff, 1.5);
+  EXPECT_EQ(config.cem.part_step, 0.45);
   EXPECT_EQ(config.cem.prior_fraction, 0.75);
   EXPECT_EQ(config.cem.prior_scored, 13);
   EXPECT_EQ(config.cem.compared, 14);
@@ -130,6 +132,12 @@ TEST(RunConfig, RefinesElitesOnlyWhereTheyAreLearntFrom) {
   RunConfig config = FromToml("cem.refine_steps = 5", "x");
   EXPECT_NO_THROW(Validate(config, "x"));
   config.cem.mode = EpisodeMode::kLatent;
+  EXPECT_THROW(Validate(config, "x"), InputError);
+  config.cem.part_step = 0.3;  // of parts that a grid does not have
+  EXPECT_THROW(Validate(config, "x"), InputError);
+  config.model.kind = ModelKind::kSolids;
+  EXPECT_NO_THROW(Validate(config, "x"));
+  config.cem.mode = EpisodeMode::kGan;
   EXPECT_THROW(Validate(config, "x"), InputError);
 }
 

@@ -31,12 +31,15 @@ inline torch::Tensor Radii(int n) {
 }
 
 // A shape model without networks that draws spheres around the origin, of radius
-// r (1 + tanh(z_0) / 5). A step goes an eighth of the way from r to the mean radius of the training
-// set; r = 0.1 to begin with. Everything it does is known on paper.
+// r (1 + tanh(z_0) / 5), times exp of the first number of parts where it has any. A step goes an
+// eighth of the way from r to the mean radius of the training set; r = 0.1 to begin with.
+// Everything it does is known on paper.
 class SphereModel : public ShapeModel {
  public:
-  explicit SphereModel(const RunConfig& config)
-      : model_(config.model), latent_(StandardNormal(config.model.latent)) {}
+  explicit SphereModel(const RunConfig& config, std::int64_t part_numbers = 0)
+      : model_(config.model),
+        part_numbers_(part_numbers),
+        latent_(StandardNormal(config.model.latent)) {}
 
   double radius() const { return radius_.item<double>(); }
   static double RadiusOf(double r, double z0) { return r * (1.0 + std::tanh(z0) / 5.0); }
@@ -65,17 +68,22 @@ class SphereModel : public ShapeModel {
   std::string ScalarText() const override { return "r " + std::to_string(radius()); }
 
   torch::Tensor Sample(std::uint64_t seed, std::int64_t first, std::int64_t count) override {
-    std::vector<torch::Tensor> spheres;
-    for (const torch::Tensor& z : Latents(seed, first, count).unbind()) {
-      const double r = RadiusOf(radius(), z[0].item<double>());
-      spheres.push_back(NetworkValues(r - Radii(model_.resolution), model_));
-    }
-    return torch::stack(spheres);
+    return Draw(Latents(seed, first, count));
   }
   torch::Tensor Latents(std::uint64_t seed, std::int64_t first, std::int64_t count) const override {
     return SampleLatents(latent_, seed, first, count);
   }
   const LatentMixture& latent() const override { return latent_; }
+  std::int64_t PartNumbers() const override { return part_numbers_; }
+  torch::Tensor Draw(const torch::Tensor& latents) override {
+    std::vector<torch::Tensor> spheres;
+    for (const torch::Tensor& z : latents.unbind()) {
+      const double part = z.size(0) > model_.latent ? z[model_.latent].item<double>() : 0.0;
+      const double r = RadiusOf(radius(), z[0].item<double>()) * std::exp(part);
+      spheres.push_back(NetworkValues(r - Radii(model_.resolution), model_));
+    }
+    return torch::stack(spheres);
+  }
 
   NamedTensors State() const override { return StateWith(latent_); }
   void Load(const NamedTensors& state, const std::string& origin) override {
@@ -110,6 +118,7 @@ class SphereModel : public ShapeModel {
   }
 
   ModelOptions model_;
+  std::int64_t part_numbers_;
   LatentMixture latent_;
   torch::Tensor radius_ = torch::full({}, 0.1, torch::kDouble);
   torch::Tensor progress_ = torch::zeros({3}, torch::kLong);
