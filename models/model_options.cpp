@@ -10,10 +10,11 @@ namespace antigrasp {
 void Bind(OptionTable* table, ModelOptions* options) {
   table->Add("model.kind", &options->kind,
              "generator: transposed convolutions (sngan), or a union of solids with flat faces");
-  table->Add("model.parts", &options->parts, 1, 32, "solids in a union (model.kind = solids)");
+  table->Add("model.parts", &options->parts, 1, 32,
+             "solids in a union, or frusta of a turned solid (model.kind = solids)");
   table->Add(
       "model.form", &options->form,
-      "what its solids are: begun as boxes or as cylinders, or turned, round about one axis");
+      "what its solids are: begun as boxes or as cylinders; or turned, one outline about an axis");
   table->Add("model.width", &options->width, 1, 256,
              "channels of the generator's last hidden layer (16^3); 8 for two cores, 64 for a GPU");
   table->Add("model.latent", &options->latent, 1, 4096, "length of the noise vector z");

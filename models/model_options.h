@@ -12,8 +12,9 @@ constexpr auto ChoicesOf(ModelKind) {
       {{ModelKind::kSngan, "sngan"}, {ModelKind::kSolids, "solids"}});
 }
 
-// What parts of a union are: kBoxes and kCylinders begin as these and may become all else that
-// solid_field.h has; kTurned are upright, round and share one axis, as what is made on a lathe.
+// What a solid is made of: kBoxes and kCylinders are unions of parts that begin as these and may
+// become all else that solid_field.h has; kTurned is one piece, as made on a lathe, whose parts are
+// frusta on each other (turned_outline.h).
 enum class PartForm { kBoxes, kCylinders, kTurned };
 constexpr auto ChoicesOf(PartForm) {
   return std::to_array<Choice<PartForm>>({{PartForm::kBoxes, "boxes"},
@@ -50,7 +51,7 @@ struct ModelOptions {
   // kSngan: the paper's transposed convolutions; kSolids: a union of prisms, cylinders and cones
   // whose measures are drawn (solid_generator.h).
   ModelKind kind = ModelKind::kSngan;
-  int parts = 6;                     // of a union
+  int parts = 6;                     // of a solid
   PartForm form = PartForm::kBoxes;  // of its parts
   int width = 8;                     // c: channels of the generator's last hidden layer
   int latent = 200;                  // z in R^200 (paper V-A)

@@ -11,8 +11,9 @@ namespace antigrasp {
 // G : z -> the union of model.parts solids (solid_field.h), as CvxNet and BSP-Net make shapes of
 // half-spaces (Deng et al.; Chen et al.; both CVPR 2020). Four linear layers, 32 model.width units
 // wide, draw where each lies, how large it is and of what form: flat faces, straight edges and
-// round walls are the form's, not learnt node by node. The bounding box is in the middle of the
-// cube, as that of every set's shapes. No convolutions, batch norm or blur.
+// round walls are the form's, not learnt node by node. With model.form = "turned" they draw one
+// outline of model.parts frusta instead (turned_outline.h). The bounding box is in the middle of
+// the cube, as that of every set's shapes. No convolutions, batch norm or blur.
 // In evaluation what does not hang together with the largest piece is left out (largest_piece.h).
 class SolidGeneratorImpl : public ShapeGenerator {
  public:
@@ -28,7 +29,12 @@ class SolidGeneratorImpl : public ShapeGenerator {
   // as SolidField takes them whatever is added.
   torch::Tensor Parts(const torch::Tensor& z);
 
+  // The same of turned solids: outlines as TurnedField takes them.
+  torch::Tensor Outlines(const torch::Tensor& z);
+
  private:
+  torch::Tensor Numbers(const torch::Tensor& z);  // [N, PartNumbers()], those behind z added
+
   ModelOptions options_;
   std::vector<torch::nn::Linear> layers_;
 };

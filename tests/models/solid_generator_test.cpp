@@ -4,12 +4,15 @@
 #include <torch/types.h>
 
 #include <cmath>
+#include <stdexcept>
+#include <vector>
 
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/largest_piece.h"
 #include "antigrasp/models/random_tensor.h"
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/models/solid_field.h"
+#include "antigrasp/models/turned_field.h"
 
 namespace antigrasp {
 namespace {
@@ -196,27 +199,49 @@ TEST(SolidGenerator, CylindersBeginRoundAndMostlyOfEqualSides) {
   EXPECT_EQ(generator->Parts(Noise(8, 0.0)).select(2, kPartRound).max().item<double>(), 0.0);
 }
 
-TEST(SolidGenerator, TurnedPartsAreUprightRoundAndShareOneAxisWhateverIsDrawn) {
+ModelOptions Turned() {
   ModelOptions options = Solids();
   options.form = PartForm::kTurned;
-  SolidGenerator generator(options);
-  for (const double sd : {1.0, 1e4}) {
-    const torch::Tensor parts = generator->Parts(Noise(64, sd)).flatten(0, 1);
-    EXPECT_TRUE(torch::equal(parts.narrow(1, kPartAxes, 9).view({-1, 3, 3}),
-                             torch::eye(3).expand({parts.size(0), 3, 3})));
-    EXPECT_LT(parts.narrow(1, kPartCentre, 2).abs().max().item<double>(), 1e-6);
-    EXPECT_TRUE((parts.select(1, kPartRound) == 1.0).all().item<bool>());
-    EXPECT_TRUE(torch::equal(parts.select(1, kPartHalf), parts.select(1, kPartHalf + 1)));
-    EXPECT_TRUE(torch::equal(parts.select(1, kPartLean), parts.select(1, kPartLean + 1)));
-  }
-  const torch::Tensor grids = generator(Noise(4, 1.0));  // as seen from any of four sides
-  EXPECT_LT((grids - grids.transpose(3, 4)).abs().max().item<double>(), 1e-4);
+  options.parts = 6;
+  return options;
 }
 
-TEST(SolidGenerator, NumbersBehindZAreAddedToWhatItDraws) {
-  SolidGenerator generator(Solids());
-  const std::int64_t numbers = generator->PartNumbers();
-  ASSERT_EQ(numbers, 3 * 19);
+TEST(SolidGenerator, TurnedSolidsAreTheInsidesOfTheirOutlines) {
+  SolidGenerator generator(Turned());
+  const torch::Tensor z = Noise(4, 1.0), grids = generator(z);
+  ASSERT_EQ(grids.sizes(), (std::vector<std::int64_t>{4, 1, 32, 32, 32}));
+  EXPECT_TRUE(
+      torch::equal(grids, NetworkValues(TurnedField(generator->Outlines(z), 32), Turned())));
+  EXPECT_TRUE(torch::equal(grids, grids.transpose(3, 4)));
+  EXPECT_THROW(generator->Parts(z), std::logic_error);
+  EXPECT_THROW(SolidGenerator(Solids())->Outlines(z), std::logic_error);
+}
+
+TEST(SolidGenerator, TurnedSolidsAreInTheMiddleAndOfManyForms) {
+  ModelOptions options = Turned();
+  options.width = 8;
+  SolidGenerator generator(options);
+  const torch::Tensor inside = generator(Noise(64, 1.0)) > 0;
+  const torch::Tensor share = inside.to(torch::kFloat).flatten(1).mean(1);
+  EXPECT_GT(share.min().item<double>(), 0.001);
+  EXPECT_GT(share.std().item<double>(), 0.01);
+  for (int i = 0; i < 64; ++i) {
+    const torch::Tensor nodes = inside[i][0].nonzero();
+    const torch::Tensor ends = std::get<0>(nodes.min(0)) + std::get<0>(nodes.max(0)) - 31;
+    EXPECT_LE(ends.abs().max().item<int>(), 1) << i;
+  }
+  for (const double sd : {3.0, 1e4}) {  // nor do they touch the border
+    const torch::Tensor grids = generator(Noise(64, sd));
+    for (int axis = 2; axis < 5; ++axis) {
+      EXPECT_LT(grids.select(axis, 0).max().item<double>(), 0.0);
+      EXPECT_LT(grids.select(axis, 31).max().item<double>(), 0.0);
+    }
+  }
+}
+
+void ExpectAddsWhatIsBehindZ(const ModelOptions& options, std::int64_t numbers) {
+  SolidGenerator generator(options);
+  ASSERT_EQ(generator->PartNumbers(), numbers);
   const torch::Tensor z = Noise(4, 1.0), none = torch::zeros({4, numbers});
   EXPECT_TRUE(torch::equal(generator(torch::cat({z, none}, 1)), generator(z)));
   RngStream rng(4, "solid_generator_test");
@@ -225,6 +250,11 @@ TEST(SolidGenerator, NumbersBehindZAreAddedToWhatItDraws) {
   torch::NoGradGuard no_grad;  // as biases of the last layer would be
   generator->named_parameters()["layer4.bias"].add_(moved[0]);
   EXPECT_LT((drawn - generator(z)).abs().max().item<double>(), 1e-4);
+}
+
+TEST(SolidGenerator, NumbersBehindZAreAddedToWhatItDraws) {
+  ExpectAddsWhatIsBehindZ(Solids(), 3 * 19);
+  ExpectAddsWhatIsBehindZ(Turned(), 4 * 7 + 1);  // of the base and six frusta, and one more
 }
 
 TEST(SolidGenerator, WeightsDependOnTheStreamOnly) {
