@@ -44,6 +44,9 @@ void AddSampleCommand(CLI::App* app) {
       ->add_option("--fairing-power", flags->fairing_power, "of a bend in that: gan.fairing_power")
       ->check(CLI::Range(0.01, 1.0));
   command->add_option("--device", flags->device, "cpu, cuda, cuda:1")->capture_default_str();
+  command->add_flag(
+      "--unmoved", flags->unmoved,
+      "without what the loop moved of parts (cem.part_step): the pair of each sample");
   AddThreads(command, &flags->threads);
   command->callback([flags] { Sample(*flags); });
 }

@@ -18,7 +18,7 @@
 
 namespace antigrasp {
 
-SampledNetworks::SampledNetworks(const SampleRequest& request) {
+SampledNetworks::SampledNetworks(const SampleRequest& request) : unmoved_(request.unmoved) {
   if (std::isnan(request.fairing) || std::isnan(request.fairing_power)) {
     throw InputError("not a number", "--fairing, --fairing-power",
                      "a weight of at least 0, a power");
@@ -32,6 +32,10 @@ SampledNetworks::SampledNetworks(const SampleRequest& request) {
   if (request.fairing_power > 0.0) config_.gan.fairing_power = request.fairing_power;
   model_ = MakeGan(config_);
   model_->LoadNetworks(checkpoint.networks, path_.string());
+  if (unmoved_ && model_->latent().means.size(1) == config_.model.latent) {
+    throw InputError("--unmoved, but no parts were moved", path_.string(),
+                     "a later episode of a run with cem.part_step");
+  }
 }
 
 ShapeSet SampledNetworks::About(std::uint64_t seed) const {
@@ -45,12 +49,16 @@ ShapeSet SampledNetworks::About(std::uint64_t seed) const {
     set.provenance += ", fairing " + FormatDouble(config_.gan.fairing) + ", power " +
                       FormatDouble(config_.gan.fairing_power);
   }
+  if (unmoved_) set.provenance += ", unmoved";
   return set;
 }
 
 std::vector<SdfGrid> SampledNetworks::Sample(std::uint64_t seed, std::int64_t first,
                                              std::int64_t count) {
-  const torch::Tensor values = model_->Sample(seed, first, count);
+  const torch::Tensor values =
+      unmoved_
+          ? model_->Draw(model_->Latents(seed, first, count).narrow(1, 0, config_.model.latent))
+          : model_->Sample(seed, first, count);
   std::vector<SdfGrid> grids;
   for (std::int64_t i = 0; i < values.size(0); ++i) {
     grids.push_back(GridOf(values[i], config_.model));

@@ -20,14 +20,16 @@ struct SampleRequest {
   int count = 64;
   std::uint64_t seed = 1;  // of the latent vectors
   std::string device = "cpu";
-  int threads = 0;                              // 0 = all
+  int threads = 0;       // 0 = all
+  bool unmoved = false;  // the same z without the moves of cem.part_step: each sample's own pair
   double fairing = -1.0, fairing_power = -1.0;  // below 0: the networks' own (GanOptions)
 };
 
 // Networks that draw samples.
 class SampledNetworks {
  public:
-  // Of the request's networks, on its device, with its fairing. InputError for what are none.
+  // Of the request's networks, on its device, with its fairing. InputError for what are none, and
+  // for `unmoved` where nothing was moved.
   explicit SampledNetworks(const SampleRequest& request);
 
   const std::filesystem::path& path() const { return path_; }  // where they were found
@@ -40,6 +42,7 @@ class SampledNetworks {
  private:
   std::filesystem::path path_;
   RunConfig config_;
+  bool unmoved_;
   std::unique_ptr<ShapeModel> model_;
 };
 

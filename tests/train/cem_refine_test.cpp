@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <atomic>
 
+#include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/datasets/shape_set.h"
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/train/cem_loop.h"
 #include "antigrasp/train/cem_run.h"
+#include "antigrasp/train/sample_set.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
 #include "tests/train/run_files.h"
@@ -114,6 +116,58 @@ TEST(CemRefine, LatentModeMovesPartsToLowerScoresWithinThePriorsSpread) {
                            episode.latents.narrow(1, latent, 2)));
   const torch::Tensor stray = model.latent().deviations.narrow(1, latent, 2);
   EXPECT_NEAR(stray.max().item<double>(), config.cem.step * config.cem.part_step, 1e-7);
+}
+
+RunConfig TinySolids() {
+  RunConfig config = shapes::Tiny();
+  config.model.kind = ModelKind::kSolids;
+  config.model.parts = 2;
+  config.cem.mode = EpisodeMode::kLatent;
+  config.cem.part_step = 0.5;
+  config.cem.refine_steps = 2;
+  config.cem.episodes = 1;
+  config.cem.keep = 6;
+  return config;
+}
+
+std::vector<SdfGrid> Sampled(const std::filesystem::path& networks, bool unmoved) {
+  SampleRequest request;
+  request.networks = networks.string();
+  request.unmoved = unmoved;
+  return SampledNetworks(request).Sample(5, 1, 3);
+}
+
+TEST(CemRefine, SamplesOfMovedPartsHaveAPairOfTheSameZUnmoved) {
+  const TempFolder folder;
+  StoppingObserver observer;
+  StartRun(TinySolids(), folder / "run", &observer);
+  const RunFolder run{folder / "run"};
+  const std::filesystem::path last = run.EpisodeCheckpoint(1);
+  const std::vector<SdfGrid> moved = Sampled(last, false), pairs = Sampled(last, true);
+  ASSERT_EQ(moved.size(), pairs.size());
+  const RunConfig config = ConfigOfRun(run.root);
+  GanTrainer trainer(config.model, config.gan, config.seed, torch::kCPU);
+  trainer.LoadNetworks(ReadCheckpoint(last).networks, "last");
+  const torch::Tensor latents = trainer.Latents(5, 1, 3);
+  ASSERT_EQ(latents.size(1), config.model.latent + 2 * 19);
+  const torch::Tensor drawn = trainer.Draw(latents.narrow(1, 0, config.model.latent));
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    EXPECT_EQ(pairs[i].values, GridOf(drawn[static_cast<std::int64_t>(i)], config.model).values);
+    EXPECT_NE(pairs[i].values, moved[i].values);
+  }
+  // Of episode 0 nothing was moved.
+  EXPECT_THROW(Sampled(run.EpisodeCheckpoint(0), true), InputError);
+}
+
+TEST(CemRefine, ARunStoppedWhileItRefinesPartsGoesOnToTheSameFiles) {
+  const TempFolder folder;
+  StoppingObserver never;
+  StartRun(TinySolids(), folder / "whole", &never);
+  // 8 shapes made, 4 scored, 20 updates; a stage: all samples drawn, 8 scored, two trials.
+  shapes::RunWithStops(TinySolids(), folder / "stopped",
+                       {{8 + 4 + 20 + 1 + 8 + 1, "episode 0: refining the elites"},
+                        {1 + 8 + 2 + 1 + 8, "episode 1: refining the elites"}});
+  shapes::ExpectSameFiles(folder / "whole", folder / "stopped");
 }
 
 }  // namespace
