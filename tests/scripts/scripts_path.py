@@ -36,8 +36,12 @@ vendi,44.4,60.8
 matching,0.0428,
 diversity,0.91,
 nearest_reference,0.0407,0.0425
+crease_share,0.09,0.1
+flat_share,0.3,0.6
+nna_normals,0.71,
 """
-CELLS = {"COV": "41%", "1-NNA": "0.63", "MMD": "0.043", "diversity": "0.91", "Vendi score": "44", "roughness, degrees": "9.3"}
+CELLS = {"COV": "41%", "1-NNA": "0.63", "with normals": "0.71", "MMD": "0.043", "near-duplicates": "7%", "diversity": "0.91",
+         "Vendi score": "44", "roughness, degrees": "9.3", "flat edges, of the prior's": "0.50", "creases, of the prior's": "0.90"}
 
 
 def write_compare(folder, episode):
