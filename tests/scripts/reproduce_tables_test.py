@@ -60,6 +60,7 @@ class Tables(unittest.TestCase):
     def test_of_the_ways_to_choose_elites_stand_beside_the_control(self):
         other = self.results.parent / "control-way"
         write_statistics(other, [RUN[0], {**RUN[1]}, {**CONTROL[0]}])
+        (self.results / "episode_0/qd.txt").write_text("0.254\n")
         rows = markdown_rows(reproduce_cem.table({"paper": self.results, "control": other}))
         expected = [("paper", "0", "0.50 ±0.00", "-", "5%", CELLS, "0.041"),
                     ("paper", "2", "0.25 ±0.03", "0.40 ±0.05", "20%", NO_SURFACES, "-"),
@@ -67,7 +68,8 @@ class Tables(unittest.TestCase):
                     ("control", "2", "0.62 ±0.00", "-", "25%", NO_SURFACES, "-")]
         for row, (way, episode, prior, control, rejected, surfaces, nearest) in zip(rows, expected, strict=True):
             self.assertEqual(row, {"elites": way, "episode": episode, "kappa / prior": prior, "kappa / control": control,
-                                   "rejected": rejected, **surfaces, "to the nearest prior shape": nearest})
+                                   "rejected": rejected, **surfaces, "to the nearest prior shape": nearest,
+                                   "QD score": "0.25" if (way, episode) == ("paper", "0") else "-"})
 
     def test_of_the_ablation_hold_one_row_a_variant_that_was_run(self):
         document = self.results.parent / "training.md"
