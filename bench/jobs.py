@@ -29,7 +29,7 @@ def seconds(call, phase):
 
 def trained(settings):
     def call(folder, processes, threads):
-        return [PROGRAM, "train", "configs/demo.toml", *settings, f"run.threads={threads}", "--overwrite", "--processes", str(processes),
+        return [PROGRAM, "train", "configs/retrain.toml", *settings, f"run.threads={threads}", "--overwrite", "--processes", str(processes),
                 "--out", os.path.join(folder, "run")]
     return call
 

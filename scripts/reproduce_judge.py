@@ -63,7 +63,15 @@ class Study:
             return None
         rows = read_means(table)
         shape = means(self.perturbed(kind, flags))[0]
-        return {"held": rows["1 g", "all"], "kept": rows["", "candidates kept"], "shape": shape}
+        return {"held": rows["1 g", "all"], "kept": rows["", "candidates kept"], "shape": shape,
+                "turned": mean_turn(self.perturbed(kind, flags) / "perturb.csv")}
+
+
+def mean_turn(path):
+    """By how much normals turn in the mean over a surface and over objects, degrees: what tells ripples from dents of the same height."""
+    with open(path, newline="") as file:
+        turns = [float(row["normal_mean_deg"]) for row in csv.DictReader(file) if row["status"] == "ok"]
+    return sum(turns) / len(turns) if turns else math.nan
 
 
 def read_means(path):
@@ -82,7 +90,7 @@ def share(row, name, digits=1):
 def table_line(kind, label, row):
     held, kept, shape = row["held"], row["kept"], row["shape"]
     change = f"{number(held, 'difference'):+.1f} +-{number(held, 'difference_half_width'):.1f}" if held["difference"] else "-"
-    return (f"| {kind} | {label} | {share(shape, 'hausdorff_pct')} | {share(shape, 'volume_pct')} | {share(shape, 'reduction_pct', 0)} | "
+    return (f"| {kind} | {label} | {share(shape, 'hausdorff_pct')} | {row['turned']:.0f} | {share(shape, 'volume_pct')} | {share(shape, 'reduction_pct', 0)} | "
             f"{share(held, 'held_before')} | {share(held, 'held')} | {change} | {share(kept, 'held_before')} -> {share(kept, 'held')} |")
 
 
@@ -100,8 +108,8 @@ def table(study, friction):
     if not lines:
         return []
     return ["", f"Friction {friction}:", "",
-            "| set | method | Hausdorff, % | volume, % | kappa, % less | held before, % | after | change, points | candidates kept, % |",
-            "| --- | --- | --- | --- | --- | --- | --- | --- | --- |", *lines]
+            "| set | method | Hausdorff, % | normals turned, degrees | volume, % | kappa, % less | held before, % | after | change, points | candidates kept, % |",
+            "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |", *lines]
 
 
 def figure(study, path):

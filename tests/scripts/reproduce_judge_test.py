@@ -36,10 +36,13 @@ class Judge(unittest.TestCase):
             table.write_text(HEAD + "six-ways,own,0.25,1 g,all,3,1,1,1,3,1,1\nsix-ways,equal,0.25,1 g,all,3,40.25,5,70,3,-29.75,6.04\n"
                              "six-ways,equal,0.25,,candidates kept,3,1.5,0.2,9,,,\n")
             rows = reproduce_judge.read_means(table)
+            perturbed = pathlib.Path(temporary) / "perturb.csv"
+            perturbed.write_text("object,status,normal_mean_deg\na,ok,10\nb,ok,21\nc,no_grasps,\n")
+            turned = reproduce_judge.mean_turn(perturbed)
         shape = {"hausdorff_pct": "4.96", "volume_pct": "7", "reduction_pct": ""}
-        row = {"held": rows["1 g", "all"], "kept": rows["", "candidates kept"], "shape": shape}
+        row = {"held": rows["1 g", "all"], "kept": rows["", "candidates kept"], "shape": shape, "turned": turned}
         self.assertEqual(reproduce_judge.table_line("prisms", "search, 5 %", row),
-                         "| prisms | search, 5 % | 5.0 | 7.0 | - | 70.0 | 40.2 | -29.8 +-6.0 | 9.0 -> 1.5 |")
+                         "| prisms | search, 5 % | 5.0 | 16 | 7.0 | - | 70.0 | 40.2 | -29.8 +-6.0 | 9.0 -> 1.5 |")
 
 
 if __name__ == "__main__":
