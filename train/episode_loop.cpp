@@ -185,7 +185,9 @@ void FolderLoop::TimeStage(double seconds) {
 void FolderLoop::Record(const Episode& finished) {
   const std::vector<StageStatistics>& rows = loop_.rows();
   const std::vector<std::int64_t>& elites = finished.selection.elites;
-  if (std::ssize(elites) < config_.cem.keep && config_.cem.variant != EliteRule::kStratified) {
+  const bool all_kept = config_.cem.keep == config_.cem.samples;
+  if (std::ssize(elites) < config_.cem.keep && !all_kept &&
+      config_.cem.variant != EliteRule::kStratified) {
     spdlog::warn("only {} of {} samples are usable: fewer elites than cem.keep = {}", elites.size(),
                  config_.cem.samples, config_.cem.keep);
   }
