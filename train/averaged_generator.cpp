@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string_view>
 #include <vector>
 
@@ -18,17 +19,34 @@ namespace {
 
 constexpr std::int64_t kStatisticsBlocks = 32;  // 1,024 samples: a channel's mean to 3 % of its sd
 
-// The components' weight is gone through by multiples of the golden ratio: any number of samples in
-// a row are spread over the components evenly, so that none is drawn again long before others were
-// drawn at all.
+// The share of the components' weight at which sample `i` of many is drawn: n in a row end in all n
+// n-ths of it, so that of n components of equal weight none is drawn again before all others were.
+class EvenShares {
+ public:
+  EvenShares(std::int64_t n, double first)
+      : n_(n), first_(first), stride_(std::llround(static_cast<double>(n) / std::numbers::phi)) {
+    while (std::gcd(stride_, n_) != 1) ++stride_;
+  }
+  double Of(std::int64_t i) const {
+    const double turns = first_ + static_cast<double>(i / n_) / std::numbers::phi;
+    const std::int64_t place = i % n_ * stride_ % n_;
+    return (static_cast<double>(place) + turns - std::floor(turns)) / static_cast<double>(n_);
+  }
+
+ private:
+  std::int64_t n_;
+  double first_;
+  // Near the golden section: few in a row are far from each other as well.
+  std::int64_t stride_;
+};
+
 torch::Tensor LatentBlock(const LatentMixture& mixture, std::uint64_t seed, std::string_view domain,
                           std::int64_t block) {
-  const double first = RngStream(seed, domain).Uniform();
+  const EvenShares shares(mixture.weights.size(0), RngStream(seed, domain).Uniform());
   std::vector<torch::Tensor> rows;
   for (std::int64_t i = block * kSampleBlock; i < (block + 1) * kSampleBlock; ++i) {
     RngStream rng(seed, domain, static_cast<std::uint64_t>(i));
-    const double turns = first + static_cast<double>(i) / std::numbers::phi;
-    rows.push_back(DrawLatent(mixture, turns - std::floor(turns), &rng));
+    rows.push_back(DrawLatent(mixture, shares.Of(i), &rng));
   }
   return torch::stack(rows);
 }

@@ -100,19 +100,31 @@ TEST(LatentMixture, DrawsTheComponentOfTheShareByTheNormalsOfTheStream) {
   }
 }
 
-// A hundred components a hundred apart, so that a sample says whose it is.
-TEST(SampleLatents, AreSpreadOverTheComponentsEvenly) {
-  const torch::Tensor means = 100.0 * torch::arange(100, torch::kFloat).view({100, 1});
-  const LatentMixture mixture{torch::full({100}, 0.01), means, torch::ones({100, 1})};
-  for (const std::uint64_t seed : {1, 2, 3}) {
-    const torch::Tensor of = (SampleLatents(mixture, seed, 37, 300) / 100.0).round().flatten();
-    const torch::Tensor times = torch::bincount(of.to(torch::kLong), {}, 100);
-    EXPECT_GE(times.min().item<int>(), 2) << seed;
-    EXPECT_LE(times.max().item<int>(), 4) << seed;
-    // 55 multiples of the golden ratio, a Fibonacci number, are 0.013 and more apart modulo 1.
-    const torch::Tensor few = torch::bincount(of.slice(0, 100, 155).to(torch::kLong), {}, 100);
-    EXPECT_EQ(few.max().item<int>(), 1) << seed;
+// How often each of `n` components of equal weight is drawn, which lie a hundred apart.
+torch::Tensor TimesDrawn(std::int64_t n, std::uint64_t seed, std::int64_t first,
+                         std::int64_t count) {
+  const torch::Tensor means = 100.0 * torch::arange(n, torch::kFloat).view({n, 1});
+  const LatentMixture mixture{torch::full({n}, 1.0 / double(n)), means, torch::ones({n, 1})};
+  const torch::Tensor of = (SampleLatents(mixture, seed, first, count) / 100.0).round().flatten();
+  return torch::bincount(of.to(torch::kLong), {}, n);
+}
+
+TEST(SampleLatents, DrawNoComponentAgainBeforeAllOthers) {
+  for (const std::int64_t n : {1, 2, 6, 100, 144}) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      EXPECT_TRUE((TimesDrawn(n, seed, 37, n) == 1).all().item<bool>()) << n;
+      EXPECT_TRUE((TimesDrawn(n, seed, 5, 3 * n) == 3).all().item<bool>()) << n;
+    }
   }
+}
+
+TEST(SampleLatents, DrawAComponentAsOftenAsItsWeightWhereThatIsNotOneOfN) {
+  LatentMixture mixture;
+  mixture.weights = torch::tensor({0.9F, 0.1F});
+  mixture.means = torch::tensor({{0.0F}, {100.0F}});
+  mixture.deviations = torch::ones({2, 1});
+  const torch::Tensor z = SampleLatents(mixture, 1, 0, 2000);
+  EXPECT_NEAR((z > 50.0).sum().item<double>(), 200.0, 4.0);
 }
 
 TEST(AroundElites, HasAComponentForEachEliteAndOneFresh) {
