@@ -78,7 +78,8 @@ class Gallery {
       object.name = episode < 0 ? prior_names[index] : SampleName(choice.indices[j]);
       if (elites) object.elite = elites->contains(choice.indices[j]);
       AddNumbers(choice, j, rows, &object);
-      if (index < rows.size() && !SameScore(rows[index], object)) ++differ;
+      const bool metric = config_.cem.score == kEpsilonScore;  // the page shows nobody else's
+      if (metric && index < rows.size() && !SameScore(rows[index], object)) ++differ;
       report_->objects.push_back(std::move(object));
     }
     if (differ > 0) {

@@ -65,8 +65,12 @@ ScoredStage CemLoop::ScorePrior(const std::string& origin) {
   ScoredStage scored = scorer_(prior_.slice(0, 0, count), "scoring the prior set");
   const StageStatistics row = Summarize(-1, scored, prior_, config_);
   if (row.graspability.count == 0) {
-    throw InputError("no usable shape in the prior set", origin,
-                     "shapes that remesh to one closed solid");
+    const bool solids = row.rejected() < row.samples;
+    throw InputError(
+        solids ? "no score for any shape of the prior set by cem.score = " + config_.cem.score
+               : "no usable shape in the prior set",
+        origin,
+        solids ? "a score that judges some of them" : "shapes that remesh to one closed solid");
   }
   rows_.push_back(row);
   return scored;
@@ -123,11 +127,12 @@ Episode CemLoop::Finish() {
   if (episode.selection.elites.empty()) {
     throw RuntimeFailure("episode " + std::to_string(number) + ": none of " +
                          std::to_string(config_.cem.samples) + " samples is a usable object" +
-                         (outside > 0 ? " within cem.spread of the prior set" : ""));
+                         (outside > 0 ? " within cem.spread of the prior set: raise it" : ""));
   }
   if (outside > 0) {
-    observer_->Note("episode " + std::to_string(number) + ": " + std::to_string(outside) +
-                    " samples are beyond cem.spread of the prior set and not kept");
+    observer_->Note("episode " + std::to_string(number) + ": " + std::to_string(outside) + " of " +
+                    std::to_string(config_.cem.samples) +
+                    " beyond cem.spread of the prior set and not kept");
   }
   if (config_.cem.mode == EpisodeMode::kLatent) episode.latents = EliteLatents(episode.selection);
   if (RefinesParts(config_.cem)) {

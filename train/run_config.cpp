@@ -114,8 +114,9 @@ void Validate(const RunConfig& config, const std::string& origin) {
   }
   const bool latent = config.cem.mode == EpisodeMode::kLatent;
   if (config.cem.part_step > 0.0 && !(latent && config.model.kind == ModelKind::kSolids)) {
-    throw InputError("cem.part_step", origin,
-                     "cem.mode = latent and model.kind = solids, whose shapes have parts");
+    throw InputError("cem.part_step with cem.mode = " + ChoiceName(config.cem.mode) +
+                         " and model.kind = " + ChoiceName(config.model.kind),
+                     origin, "0, or cem.mode = latent and model.kind = solids");
   }
   if (config.cem.refine_steps > 0 && latent && !(config.cem.part_step > 0.0)) {
     throw InputError("cem.refine_steps with cem.mode = latent", origin,
