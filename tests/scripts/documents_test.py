@@ -91,7 +91,6 @@ class Documents(unittest.TestCase):
             mesh.rename(cls.folder / f"meshes/part-{number}.obj")
         cls.must("export", "meshes/part-0.obj", "--out", "stl")
         next((cls.folder / "stl").glob("*.stl")).rename(cls.folder / "mug.stl")
-        cls.must("sample", "runs/demo/episode_0/checkpoint.pt", "--count", "3", "--seed", "7", "--out", "batch0.h5")
         cls.must("shape", "cube", "--phi", "15", "--out", "bevelled.stl")
         cls.must("perturb", "exhaustive", "bevelled.stl", "--history", "--iterations", "3", "--out", "exhaustive")
         cls.must("sample", "runs/demo", "--count", "3", "--out", "samples.h5")
