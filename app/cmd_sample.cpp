@@ -17,8 +17,9 @@ namespace fs = std::filesystem;
 void Sample(const SampleRequest& request) {
   ConsoleObserver console;
   const fs::path networks = WriteSamples(request, &console);
-  std::printf("%s: %d samples, seed %llu, from %s\n", request.out.c_str(), request.count,
-              static_cast<unsigned long long>(request.seed), networks.c_str());
+  std::printf("%s: %d%s samples, seed %llu, from %s\n", request.out.c_str(), request.count,
+              request.unmoved ? " unmoved" : "", static_cast<unsigned long long>(request.seed),
+              networks.c_str());
 }
 
 }  // namespace
@@ -44,9 +45,8 @@ void AddSampleCommand(CLI::App* app) {
       ->add_option("--fairing-power", flags->fairing_power, "of a bend in that: gan.fairing_power")
       ->check(CLI::Range(0.01, 1.0));
   command->add_option("--device", flags->device, "cpu, cuda, cuda:1")->capture_default_str();
-  command->add_flag(
-      "--unmoved", flags->unmoved,
-      "without what the loop moved of parts (cem.part_step): the pair of each sample");
+  command->add_flag("--unmoved", flags->unmoved,
+                    "without what the loop moved of parts: the pair of each sample");
   AddThreads(command, &flags->threads);
   command->callback([flags] { Sample(*flags); });
 }

@@ -6,16 +6,13 @@
 
 #include "antigrasp/core/check.h"
 #include "antigrasp/models/solid_rows.h"
+#include "antigrasp/models/solid_terms.h"
 
 namespace antigrasp {
 namespace {
 
 using torch::autograd::AutogradContext;
 using torch::autograd::variable_list;
-
-at::Tensor NodeCoordinates(std::int64_t r, const at::TensorOptions& options) {
-  return (at::arange(r, options) + 0.5) / static_cast<double>(r) - 0.5;
-}
 
 class UnionFunction : public torch::autograd::Function<UnionFunction> {
  public:

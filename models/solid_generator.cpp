@@ -12,6 +12,7 @@
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/models/solid_field.h"
 #include "antigrasp/models/solid_reach.h"
+#include "antigrasp/models/solid_terms.h"
 #include "antigrasp/models/turned_field.h"
 #include "antigrasp/models/turned_outline.h"
 
@@ -45,11 +46,6 @@ constexpr double kStraight = 1.0, kUpright = 0.25, kEqualSides = 0.1;
 
 torch::Tensor Unit(const torch::Tensor& x) {
   return torch::nn::functional::normalize(x, torch::nn::functional::NormalizeFuncOptions().dim(-1));
-}
-
-// In [0, 1], both ends included.
-torch::Tensor Share(const torch::Tensor& x) {
-  return (1.2 * torch::sigmoid(1.5 * x) - 0.1).clamp(0.0, 1.0);
 }
 
 // Two of the frame's axes by Gram and Schmidt, near those of the cube: [N, M, 3, 3], rows. Slight

@@ -5,16 +5,13 @@
 #include <torch/csrc/autograd/custom_function.h>
 
 #include "antigrasp/core/check.h"
+#include "antigrasp/models/solid_terms.h"
 #include "antigrasp/models/turned_rows.h"
 
 namespace antigrasp {
 namespace {
 
 constexpr std::int64_t kMostPoints = 4096, kWholeRows = 16;
-
-at::Tensor AlongSide(std::int64_t r, const at::TensorOptions& options) {
-  return (at::arange(r, options) + 0.5) / static_cast<double>(r) - 0.5;
-}
 
 class TurnedFunction : public torch::autograd::Function<TurnedFunction> {
  public:
@@ -55,7 +52,7 @@ class TurnedFunction : public torch::autograd::Function<TurnedFunction> {
   // Calls visit(i, outline) for each of the batch, each in one thread.
   template <typename Visit>
   static void ForOutlines(const at::Tensor& outlines, std::int64_t r, const Visit& visit) {
-    const at::Tensor coordinates = AlongSide(r, outlines.options());
+    const at::Tensor coordinates = NodeCoordinates(r, outlines.options());
     const auto *first = outlines.data_ptr<float>(), *x = coordinates.data_ptr<float>();
     const std::int64_t count = outlines.size(1);
     at::parallel_for(0, outlines.size(0), 1, [&](std::int64_t begin, std::int64_t end) {
@@ -69,7 +66,7 @@ class TurnedFunction : public torch::autograd::Function<TurnedFunction> {
 }  // namespace
 
 at::Tensor TurnedFieldByOperations(const at::Tensor& outlines, std::int64_t resolution) {
-  const at::Tensor x = AlongSide(resolution, outlines.options());
+  const at::Tensor x = NodeCoordinates(resolution, outlines.options());
   const at::Tensor squared = (x.square().view({-1, 1}) + x.square()).view({-1, 1, 1});
   const at::Tensor radius = squared.sqrt(), height = x.view({-1, 1});  // [r^2, 1, 1], [r, 1]
   const std::int64_t pieces = outlines.size(1) - 1;

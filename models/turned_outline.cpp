@@ -2,6 +2,8 @@
 
 #include <ATen/ATen.h>
 
+#include "antigrasp/models/solid_terms.h"
+
 namespace antigrasp {
 namespace {
 
@@ -18,10 +20,6 @@ constexpr double kStraight = 0.02;                    // of it: walls that lean 
 constexpr double kRoundBias = -0.3, kSkewSpan = 0.7, kEven = 0.2;
 constexpr double kHollowFrom = 0.31;  // radius of a hollow's ceiling, of its rim's
 constexpr int kSteps = 8;             // of a rounded corner
-
-at::Tensor Share(const at::Tensor& x) {  // in [0, 1], both ends included
-  return (1.2 * at::sigmoid(1.5 * x) - 0.1).clamp(0.0, 1.0);
-}
 
 // From nothing, exactly, to `scale` e^2.
 at::Tensor Height(const at::Tensor& x, double scale, double nothing) {

@@ -156,7 +156,7 @@ episode, 250 updates where networks are retrained (solids: 200); where parts are
 
 ![Kappa over coverage, over 1-NNA and over near-duplicates](images/cem_front.png)
 
-The front: a line a way, a dot an episode, the last one large; COV, 1-NNA and near-duplicates by network values, of 500 samples. Kappa low and what is beside it unchanged would be at the lower right of the left picture, at the lower left of
+The front: a line a way, a dot an episode, the last one large; COV, 1-NNA and near-duplicates by network values, of 500 samples (parts: 400). Kappa low and what is beside it unchanged would be at the lower right of the left picture, at the lower left of
 the others.
 """)
     print(f"wrote {DOCUMENT}")

@@ -33,7 +33,8 @@ void Bind(OptionTable* table, CemOptions* o) {
   table->Add("cem.redistance", &o->redistance,
              "train on the exact distances to the elites' meshes, not on the generator's values");
   table->Add("cem.refine_steps", &o->refine_steps, 0, 1e6,
-             "steps of the search that changes every elite before it is learnt from; 0 = none");
+             "steps of the search that changes every elite before it is learnt from; latent mode: "
+             "trials that move its parts; 0 = none");
   table->Add("cem.refine_hausdorff", &o->refine_hausdorff, 0.1, 50,
              "how far that may move its surface, percent of the bounding box's diagonal");
   table->Add("cem.prior_fraction", &o->prior_fraction, 0, 10,

@@ -55,8 +55,9 @@ class ShapeModel {
                                 std::int64_t count) const = 0;
   virtual const LatentMixture& latent() const = 0;  // the distribution of z
 
-  // How many numbers that z draws a shape by latents may carry behind z, to be added to them; the
-  // values [n, 1, n, n, n] of such latents, [n, latent + these], or of plain z.
+  // How many numbers z draws a shape by, where the model tells them apart, else 0: latents may
+  // carry as many behind z, which are added to them. Draw: network values [N, 1, n, n, n] float32
+  // on the CPU of latents [N, latent] or [N, latent + PartNumbers()].
   virtual std::int64_t PartNumbers() const = 0;
   virtual torch::Tensor Draw(const torch::Tensor& latents) = 0;
 
