@@ -156,7 +156,8 @@ BoxInFloat FaceBlocks::OfBox(const OrientedBox& box) const {
 }
 
 template <typename NearEight>
-void FaceBlocks::Collect(const NearEight& near, std::vector<std::uint32_t>* blocks) const {
+void FaceBlocks::Collect(const NearEight& near, std::vector<std::uint32_t>* blocks,
+                         std::size_t from) const {
   if (blocks_.empty()) return;
   struct Node {
     std::size_t level, number;
@@ -169,6 +170,7 @@ void FaceBlocks::Collect(const NearEight& near, std::vector<std::uint32_t>* bloc
     unsigned lanes = near(levels_[node.level][node.number]);
     for (; lanes != 0; lanes &= lanes - 1) {
       const std::size_t child = 8 * node.number + static_cast<std::size_t>(__builtin_ctz(lanes));
+      if (child < from >> (3 * node.level)) continue;
       if (node.level == 0) {
         blocks->push_back(static_cast<std::uint32_t>(child));
       } else {
@@ -182,6 +184,24 @@ void FaceBlocks::Near(const OrientedBox& box, std::vector<std::uint32_t>* blocks
   const BoxInFloat in_float = OfBox(box);
   const auto boxes_near = FaceKernelsHere().boxes_near;
   Collect([&](const EightBoxes& boxes) { return boxes_near(boxes, in_float); }, blocks);
+}
+
+void FaceBlocks::NearFrom(std::uint32_t block, std::vector<std::uint32_t>* blocks) const {
+  UprightBox box;
+  const EightBoxes& boxes_of = levels_.front()[block / 8];
+  for (int k = 0; k < 3; ++k) {
+    box.low[k] = boxes_of.low[k][block % 8];
+    box.high[k] = boxes_of.high[k][block % 8];
+  }
+  const auto touching = FaceKernelsHere().boxes_touching;
+  Collect([&](const EightBoxes& boxes) { return touching(boxes, box); }, blocks, block);
+}
+
+std::array<unsigned char, 8> FaceBlocks::FacesTouching(std::uint32_t block,
+                                                       std::uint32_t other) const {
+  std::array<unsigned char, 8> masks;
+  FaceKernelsHere().faces_touching(blocks_[block], blocks_[other], masks.data());
+  return masks;
 }
 
 void FaceBlocks::TakeBoxes(NearFaces* near) const {

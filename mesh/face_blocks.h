@@ -53,6 +53,29 @@ class FaceBlocks {
     return -1;
   }
 
+  // Calls visit(face, face) once for every two faces whose boxes along the axes meet, touching
+  // included, until it returns true; whether it did. Boxes of the vertices in float.
+  template <typename Visit>
+  bool AnyTouching(const Visit& visit) const {
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t block = 0; block < blocks_.size(); ++block) {
+      near.clear();
+      NearFrom(block, &near);
+      for (const std::uint32_t other : near) {
+        const std::array<unsigned char, 8> masks = FacesTouching(block, other);
+        for (std::uint32_t lane = 0; lane < 8; ++lane) {
+          unsigned lanes = masks[lane];
+          if (block == other) lanes &= (1u << lane) - 1;
+          for (; lanes != 0; lanes &= lanes - 1) {
+            const auto bit = static_cast<std::uint32_t>(__builtin_ctz(lanes));
+            if (visit(FaceOf(8 * block + lane), FaceOf(8 * other + bit))) return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
   // Blocks with their boxes, for Met: near a box, near a ray's segment. Origin about the centre.
   void NearBox(const OrientedBox& box, NearFaces* near) const;
   void NearLine(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double length,
@@ -75,8 +98,12 @@ class FaceBlocks {
  private:
   BoxInFloat OfBox(const OrientedBox& box) const;
   unsigned FacesIn(std::uint32_t block, const BoxInFloat& box) const;
+  // Appends the blocks from `block` on whose boxes meet its own.
+  void NearFrom(std::uint32_t block, std::vector<std::uint32_t>* blocks) const;
+  std::array<unsigned char, 8> FacesTouching(std::uint32_t block, std::uint32_t other) const;
   template <typename NearEight>
-  void Collect(const NearEight& near, std::vector<std::uint32_t>* blocks) const;
+  void Collect(const NearEight& near, std::vector<std::uint32_t>* blocks,
+               std::size_t from = 0) const;
   void TakeBoxes(NearFaces* near) const;
   void AddLevels();
 

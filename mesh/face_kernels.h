@@ -16,6 +16,9 @@ struct BoxInFloat {
   float axis[3][3];  // [which][coordinate]
   float center[3], half[3];
 };
+struct UprightBox {
+  float low[3], high[3];
+};
 struct RayInFloat {
   float origin[3], direction[3];
   float length;  // of the segment that can matter
@@ -33,6 +36,11 @@ struct FaceKernels {
   unsigned (*boxes_near)(const EightBoxes& boxes, const BoxInFloat& box);
   unsigned (*boxes_met)(const RayInFloat& ray, const EightBoxes& boxes);  // null as faces_met
   unsigned (*faces_in)(const BlockOfFaces& block, const BoxInFloat& box);
+  // Boxes that meet one with its sides along the axes; touching counts.
+  unsigned (*boxes_touching)(const EightBoxes& boxes, const UprightBox& box);
+  // For every face of `block` the faces of `other` whose boxes meet its own.
+  void (*faces_touching)(const BlockOfFaces& block, const BlockOfFaces& other,
+                         unsigned char* masks);
   // Slots 8 block + lane of the faces that the ray's line meets, at any distance, within the near
   // blocks that its segment may meet: how many, or -1 where they are more than `capacity`. By the
   // operations of Embree's robust test in its order, with fused multiply-adds, so that it meets the

@@ -39,8 +39,8 @@ struct MeshReport {
 // Whether every vertex is finite and every index in range.
 bool IsFinite(const TriangleMesh& mesh);
 
-// Examines any mesh, however broken; never throws on geometry. The self-intersection test (CGAL) is
-// about 10 ms for 2,500 faces, the rest about 1 ms. Several components: see NestingDepths().
+// Examines any mesh, however broken; never throws on geometry. The self-intersection test is
+// about 1 ms for 2,500 faces, the rest about as much. Several components: see NestingDepths().
 MeshReport Inspect(const TriangleMesh& mesh, bool check_self_intersection = true);
 
 // The first thing that keeps the mesh from being a solid, in plain words; "" when it is one. This

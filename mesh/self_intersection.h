@@ -9,9 +9,9 @@
 
 namespace antigrasp {
 
-// Whether two faces meet anywhere but in the vertices or the edge that they share. Exact predicates
-// (CGAL); any mesh with finite vertices and indices in range, manifold or not. Faces without area
-// are left out: Inspect() counts those as degenerate.
+// Whether two faces meet anywhere but in the vertices or the edge that they share. Exact: boxes,
+// then PlainStars() and FacesIntersect(); any mesh with finite vertices and indices in range,
+// manifold or not. Faces without area are left out: Inspect() counts those as degenerate.
 bool SelfIntersects(const TriangleMesh& mesh);
 
 // The same for all of the mesh: which pieces meet, the lower number first; a piece that meets

@@ -1,6 +1,7 @@
 #include "antigrasp/mesh/topology.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 namespace antigrasp {
@@ -11,20 +12,30 @@ constexpr double kZeroHeight = 1e-12;
 
 }  // namespace
 
+// Sorted into their lower vertices first, which leaves a few to compare.
 std::vector<EdgeUse> SortedEdgeUses(const TriangleMesh& mesh) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(3 * mesh.faces.size());
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t from = mesh.faces[f][k];
-      const std::int32_t to = mesh.faces[f][(k + 1) % 3];
-      uses.push_back(
-          {std::min(from, to), std::max(from, to), static_cast<std::int32_t>(f), from <= to});
+  std::vector<std::size_t> end(mesh.vertices.size() + 1, 0);  // of the uses of a lower vertex
+  const auto for_each_use = [&](const auto& visit) {
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t from = mesh.faces[f][k];
+        const std::int32_t to = mesh.faces[f][(k + 1) % 3];
+        visit(EdgeUse{std::min(from, to), std::max(from, to), static_cast<std::int32_t>(f),
+                      from <= to});
+      }
     }
+  };
+  for_each_use([&](const EdgeUse& use) { ++end[use.low + 1]; });
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<EdgeUse> uses(3 * mesh.faces.size());
+  for_each_use([&](const EdgeUse& use) { uses[end[use.low]++] = use; });
+  std::size_t begin = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    std::sort(uses.begin() + begin, uses.begin() + end[v], [](const EdgeUse& a, const EdgeUse& b) {
+      return std::tie(a.high, a.face, a.forward) < std::tie(b.high, b.face, b.forward);
+    });
+    begin = end[v];
   }
-  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-    return std::tie(a.low, a.high, a.face, a.forward) < std::tie(b.low, b.high, b.face, b.forward);
-  });
   return uses;
 }
 

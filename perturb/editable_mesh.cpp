@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "antigrasp/core/check.h"
-#include "antigrasp/perturb/face_intersection.h"
+#include "antigrasp/mesh/face_intersection.h"
 
 namespace antigrasp {
 namespace {

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "antigrasp/mesh/ray_scene.h"
 #include "tests/support/random_draws.h"
@@ -90,6 +93,36 @@ TEST(FaceBlocks, OfferTheFacesWhoseBoundsReachIntoTheBoxUntilOneIsTaken) {
   const std::size_t last = *offered.rbegin();
   EXPECT_EQ(scene.Blocks().FindIn(box, near, [&](std::size_t face) { return face == last; }),
             static_cast<std::int64_t>(last));
+}
+
+// Every pair once, by the boxes of the vertices as they are rounded.
+TEST(FaceBlocks, FindEveryTwoFacesWhoseBoxesTouch) {
+  for (const int rings : {2, 3, 12}) {
+    const TriangleMesh mesh = RippledSolid(rings);
+    std::vector<Eigen::Vector3f> vertices;
+    for (const Vector3d& v : mesh.vertices) vertices.push_back(v.cast<float>());
+    const FaceBlocks blocks(vertices, mesh.faces, Vector3d::Zero());
+    const auto box = [&](std::size_t face) {
+      Eigen::AlignedBox3f out;
+      for (const std::int32_t v : mesh.faces[face])
+        out.extend(vertices[static_cast<std::size_t>(v)]);
+      return out;
+    };
+    std::multiset<std::pair<std::uint32_t, std::uint32_t>> found, expected;
+    EXPECT_FALSE(blocks.AnyTouching([&](std::uint32_t f, std::uint32_t g) {
+      found.insert(std::minmax(f, g));
+      return false;
+    }));
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+      for (std::uint32_t g = f + 1; g < mesh.faces.size(); ++g) {
+        if (box(f).intersects(box(g))) expected.insert({f, g});
+      }
+    }
+    EXPECT_EQ(found, expected);
+    std::size_t visited = 0;
+    EXPECT_TRUE(blocks.AnyTouching([&](std::uint32_t, std::uint32_t) { return ++visited == 7; }));
+    EXPECT_EQ(visited, 7U);
+  }
 }
 
 }  // namespace
