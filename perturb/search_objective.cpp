@@ -30,20 +30,44 @@ double TangentOf(double cosine) {
   return std::sqrt(std::max(0.0, 1.0 - c * c)) / c;
 }
 
-std::optional<Closing> Close(const RayScene& scene, const JawPose& pose, const Vector3d& com,
-                             const MetricOptions& metric) {
-  Closing closing;
-  closing.axis = pose.axis;
+// What both jaws meet along every pose, which lie beside each other; nullopt where one meets
+// nothing or starts inside.
+std::vector<std::optional<Closing>> CloseTogether(const RayScene& scene,
+                                                  const std::vector<JawPose>& poses,
+                                                  const Vector3d& com,
+                                                  const MetricOptions& metric) {
   const double way = 0.5 * metric.jaw_opening;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Vector3d direction = i == 0 ? pose.axis : Vector3d(-pose.axis);
-    const auto hit = scene.Closest(pose.center - way * direction, direction, way);
-    if (!hit || !hit->front) return std::nullopt;
-    closing.face[i] = static_cast<std::int32_t>(hit->face);
+  std::vector<std::optional<Closing>> closings(poses.size(), Closing{});
+  std::vector<Ray> rays;
+  std::vector<std::size_t> of;
+  NearFaces near;
+  for (std::size_t jaw = 0; jaw < 2; ++jaw) {
+    rays.clear();
+    of.clear();
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      if (!closings[i]) continue;
+      const Vector3d direction = jaw == 0 ? poses[i].axis : Vector3d(-poses[i].axis);
+      rays.push_back({poses[i].center - way * direction, direction, way});
+      of.push_back(i);
+    }
+    scene.Near(rays, &near);
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      auto& closing = closings[of[k]];
+      const auto hit = scene.Closest(rays[k], near);
+      if (hit && hit->front) {
+        closing->face[jaw] = static_cast<std::int32_t>(hit->face);
+      } else {
+        closing.reset();
+      }
+    }
   }
-  const double torque = metric.torque_scale * (pose.center - com).cross(pose.axis).norm();
-  closing.reach = 1.0 / std::sqrt(1.0 + torque * torque);
-  return closing;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (!closings[i]) continue;
+    const double torque = metric.torque_scale * (poses[i].center - com).cross(poses[i].axis).norm();
+    closings[i]->axis = poses[i].axis;
+    closings[i]->reach = 1.0 / std::sqrt(1.0 + torque * torque);
+  }
+  return closings;
 }
 
 // Friction coefficients as a normal distribution.
@@ -142,12 +166,15 @@ std::vector<AttackGrasp> SampleAttackGrasps(const TriangleMesh& mesh, const Metr
     RngStream rng(seed, "search", step, i);
     const auto grasp = sampler.Try(&rng);
     if (!grasp || (gripper && !gripper->FreeApproach(*grasp, metric.jaw_opening))) continue;
-    const auto planned = Close(scene, {grasp->center, grasp->axis}, com, metric);
-    if (!planned) continue;
-    AttackGrasp attack{*planned, {}};
+    std::vector<JawPose> poses{{grasp->center, grasp->axis}};
     for (int draw = 0; draw < options.draws; ++draw) {
-      const JawPose pose = ExecutedPose(*grasp, com, pool[rng.Below(pool.size())]);
-      if (const auto closing = Close(scene, pose, com, metric)) attack.executed.push_back(*closing);
+      poses.push_back(ExecutedPose(*grasp, com, pool[rng.Below(pool.size())]));
+    }
+    const auto closings = CloseTogether(scene, poses, com, metric);
+    if (!closings.front()) continue;
+    AttackGrasp attack{*closings.front(), {}};
+    for (std::size_t draw = 1; draw < closings.size(); ++draw) {
+      if (closings[draw]) attack.executed.push_back(*closings[draw]);
     }
     grasps.push_back(std::move(attack));
   }
