@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -96,8 +97,11 @@ std::unique_ptr<PeerProcess> PythonPeer(const ModelOptions& model, int threads) 
   return nullptr;
 }
 
+// Each contender has all threads in its own way.
+void ThreadsForOurs(int threads) { SetTorchThreads(threads, 1); }
+void ThreadsForPlain(int threads) { SetTorchThreads(threads, threads); }
+
 void CompareSteps(int width, int pack, int threads) {
-  SetTorchThreads(threads);
   const ModelOptions model = Model(width, pack);
   const std::string name = "_width" + std::to_string(width) +
                            (pack > 1 ? "_pack" + std::to_string(pack) : "") + "_threads" +
@@ -110,11 +114,15 @@ void CompareSteps(int width, int pack, int threads) {
   const auto peer = PythonPeer(model, threads);
   std::vector<Contender> contenders = {{"ours",
                                         [&] {
+                                          ThreadsForOurs(threads);
                                           ours->Step(shapes);
                                           ours->Step(shapes);
                                         },
                                         2},
-                                       {"plain", [&] { plain.Step(shapes); }}};
+                                       {"plain", [&] {
+                                          ThreadsForPlain(threads);
+                                          plain.Step(shapes);
+                                        }}};
   if (peer) contenders.push_back({"pytorch", [&] { peer->Work(); }});
   const std::vector<double> seconds = MedianSeconds(contenders, kRounds);
   for (std::size_t i = 0; i < seconds.size(); ++i) {
@@ -126,9 +134,33 @@ void CompareSteps(int width, int pack, int threads) {
   } else {
     std::printf("left out: PyTorch (python3 cannot import torch)\n");
   }
+  ThreadsForPlain(threads);
   const double rate = ConvolutionRate();
   std::printf("rate conv3d_threads%d %.1f GFLOP/s\n", threads, 1e-9 * rate);
   PrintRatio("share_of_conv3d_rate" + name, StepOperations(model, kBatch) / seconds[0] / rate);
+}
+
+// A step for every line that is read, answered with its seconds: on the wall, of the processor. At
+// the end a number of all that training changed: equal bytes, equal numbers.
+void AnswerWithSteps(int width, int pack, int threads) {
+  ThreadsForOurs(threads);
+  const auto trainer = MakeTrainer(Model(width, pack), kBatch);
+  const torch::Tensor shapes = RandomGrids(64);
+  for (int i = 0; i < 2; ++i) trainer->Step(shapes);
+  std::puts("ready");
+  std::fflush(stdout);
+  while (std::getchar() != EOF) {
+    const std::clock_t before = std::clock();
+    const double wall = Seconds([&] { trainer->Step(shapes); });
+    std::printf("%.6f %.6f\n", wall, static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
+    std::fflush(stdout);
+  }
+  std::string bytes;
+  for (const auto& [tensor_name, tensor] : trainer->State()) {
+    const torch::Tensor flat = tensor.contiguous();
+    bytes.append(static_cast<const char*>(flat.data_ptr()), flat.nbytes());
+  }
+  std::printf("state %016zx\n", std::hash<std::string>()(bytes));
 }
 
 void CompareSteps() {
@@ -147,7 +179,7 @@ void CompareDevices() {
     std::printf("left out: CUDA (this LibTorch or this machine has none)\n");
     return;
   }
-  SetTorchThreads(HardwareThreads());
+  SetTorchThreads(HardwareThreads(), 1);
   for (const int width : {8, 16, 32, 64}) {
     std::vector<Contender> contenders;
     for (const auto& [name, device, precision, tries, graphs] :
@@ -183,12 +215,16 @@ void CompareDevices() {
 // A resampling step draws 2,500 grids. The plain way draws them in the same batches.
 void CompareSampling(int width, int threads) {
   constexpr std::int64_t kCount = 2500;
-  SetTorchThreads(threads);
   const auto ours = MakeTrainer(Model(width, 1), kBatch);
   PlainGenerator plain(Model(width, 1));
   plain->eval();
   ours->Sample(1, 0, kBatch);  // the average's batch statistics are drawn once for its weights
+  const auto draw_ours = [&] {
+    ThreadsForOurs(threads);
+    ours->Sample(1, 0, kCount);
+  };
   const auto draw_plain = [&] {
+    ThreadsForPlain(threads);
     torch::NoGradGuard no_grad;
     std::vector<torch::Tensor> parts;
     for (std::int64_t i = 0; i < kCount; i += kBatch) {
@@ -197,7 +233,7 @@ void CompareSampling(int width, int threads) {
     torch::cat(parts);
   };
   const std::vector<double> seconds =
-      MedianSeconds({{"ours", [&] { ours->Sample(1, 0, kCount); }}, {"plain", draw_plain}}, 3);
+      MedianSeconds({{"ours", draw_ours}, {"plain", draw_plain}}, 3);
   const std::string name =
       "sampling_2500_width" + std::to_string(width) + "_threads" + std::to_string(threads);
   PrintTime(name, seconds[0]);
@@ -262,9 +298,11 @@ int main(int argc, char** argv) {
   const bool steps = named.size() == 4 && named[0] == "steps";
   if (memory) TrainAndPrintMemory(std::stoi(named[1]), std::stoi(named[2]));
   if (steps) CompareSteps(std::stoi(named[1]), std::stoi(named[2]), std::stoi(named[3]));
+  const bool answers = named.size() == 4 && named[0] == "answer";
+  if (answers) AnswerWithSteps(std::stoi(named[1]), std::stoi(named[2]), std::stoi(named[3]));
   const bool sampling = named.size() == 3 && named[0] == "sampling";
   if (sampling) CompareSampling(std::stoi(named[1]), std::stoi(named[2]));
-  bool known = memory || steps || sampling;
+  bool known = memory || steps || answers || sampling;
   const std::vector<std::pair<const char*, std::function<void()>>> comparisons = {
       {"equality", CheckEquality},
       {"steps", [] { CompareSteps(); }},
@@ -277,8 +315,9 @@ int main(int argc, char** argv) {
     compare();
   }
   if (known) return 0;
-  std::fprintf(stderr,
-               "bench_training [equality | steps [WIDTH PACK THREADS] | sampling [WIDTH THREADS] | "
-               "memory | devices]\n");
+  std::fprintf(
+      stderr,
+      "bench_training [equality | steps [WIDTH PACK THREADS] | answer WIDTH PACK THREADS | "
+      "sampling [WIDTH THREADS] | memory | devices]\n");
   return 2;
 }

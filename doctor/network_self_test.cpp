@@ -48,7 +48,7 @@ SelfTestStep Step(const char* name, const HashedBytes& bytes, std::uint64_t expe
 }  // namespace
 
 std::vector<SelfTestStep> RunNetworkSelfTest() {
-  SetTorchThreads(1);
+  SetTorchThreads(1, 1);
   ModelOptions model;
   model.width = 4;
   model.resolution = 16;

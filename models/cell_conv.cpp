@@ -1,11 +1,12 @@
 #include "antigrasp/models/cell_conv.h"
 
-#include <ATen/Parallel.h>
 #include <immintrin.h>
 
 #include <algorithm>
 #include <array>
 #include <vector>
+
+#include "antigrasp/core/pieces.h"
 
 // Compiled for AVX2 and FMA (CMakeLists.txt); HasCellConv() is asked before anything else.
 namespace antigrasp {
@@ -14,8 +15,9 @@ namespace {
 constexpr int kLanes = 8;       // floats of a vector
 constexpr int kPositions = 6;   // rows of a tile of 16 channels: 12 of the 16 registers are sums
 constexpr int kNarrowRows = 8;  // rows of a tile of 8 channels
-constexpr std::int64_t kGrain = 1 << 18;  // multiply-adds worth a thread
-constexpr std::int64_t kChunk = 128;      // positions of a weight gradient that stay in L1
+constexpr std::int64_t kGrain = 1 << 20;    // multiply-adds of a piece
+constexpr std::int64_t kPiecesAThread = 4;  // of a weight gradient
+constexpr std::int64_t kChunk = 128;        // positions of a weight gradient that stay in L1
 constexpr std::int64_t kBlock = 2 * kLanes;
 
 template <int Rows, int Vectors>
@@ -99,7 +101,7 @@ void Fill(const std::vector<Position>& positions, const Taps& taps, std::int64_t
           const float* in, std::int64_t in_size, float* out, std::int64_t out_size) {
   const std::int64_t total = count * static_cast<std::int64_t>(positions.size());
   const std::int64_t grain = std::max<std::int64_t>(1, kGrain / (taps.count * depth * width));
-  at::parallel_for(0, total, grain, [&](std::int64_t begin, std::int64_t end) {
+  ForRanges(total, grain, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t c = 0; c < width; c += 2 * kLanes) {
       const float* panel = panels + c * 8 * depth;
       const float* b = bias != nullptr ? bias + c : nullptr;
@@ -132,9 +134,15 @@ void GatherBlock(const float* values, const std::vector<std::int64_t>& offsets, 
   }
 }
 
+// Outputs of a chunk, `step` floats from one position to the next.
+struct ChunkOutputs {
+  const float* values;
+  std::int64_t step;
+};
+
 // gradient[r][v] += sum over the chunk of cells[r] outputs[v]; rows are `stride` apart.
 template <int Rows, int Vectors>
-void AddProducts(const float* cells, const float* outputs, std::size_t positions,
+void AddProducts(const float* cells, ChunkOutputs outputs, std::size_t positions,
                  std::int64_t stride, float* gradient) {
   Tile<Rows, Vectors> tile;
 #pragma GCC unroll 8
@@ -144,10 +152,11 @@ void AddProducts(const float* cells, const float* outputs, std::size_t positions
       tile[r][v] = _mm256_loadu_ps(gradient + r * stride + v * kLanes);
     }
   }
-  for (std::size_t p = 0; p < positions; ++p, cells += kBlock, outputs += kBlock) {
+  for (std::size_t p = 0; p < positions; ++p, cells += kBlock) {
     __m256 values[Vectors];
 #pragma GCC unroll 8
-    for (int v = 0; v < Vectors; ++v) values[v] = _mm256_loadu_ps(outputs + v * kLanes);
+    for (int v = 0; v < Vectors; ++v) values[v] = _mm256_loadu_ps(outputs.values + v * kLanes);
+    outputs.values += outputs.step;
 #pragma GCC unroll 8
     for (int r = 0; r < Rows; ++r) {
       const __m256 cell = _mm256_broadcast_ss(cells + r);
@@ -169,12 +178,15 @@ void AddProducts(const float* cells, const float* outputs, std::size_t positions
 class ChunkProducts {
  public:
   explicit ChunkProducts(const CellConvShape& shape)
-      : s_(shape), output_blocks_((shape.out + kBlock - 1) / kBlock) {}
+      : s_(shape),
+        output_blocks_((shape.out + kBlock - 1) / kBlock),
+        gathered_(shape.out > kBlock ? output_blocks_.size() : 0) {}
 
   void Gather(std::int64_t begin, std::int64_t end, const float* output_gradient) {
     const std::int64_t g = s_.h - 1;
     cell_offsets_.clear();
     output_offsets_.clear();
+    if (gathered_.empty()) output_blocks_[0] = {output_gradient + begin * s_.out, s_.out};
     std::int64_t x = begin % g, row = begin / g;  // of outputs: y, z and sample
     std::int64_t cell = RowStart(row, g);
     for (std::int64_t p = begin; p < end; ++p) {
@@ -185,10 +197,11 @@ class ChunkProducts {
         cell = RowStart(++row, g);
       }
     }
-    for (std::size_t b = 0; b < output_blocks_.size(); ++b) {
+    for (std::size_t b = 0; b < gathered_.size(); ++b) {
       const auto o = static_cast<std::int64_t>(b) * kBlock;
       GatherBlock(output_gradient + o, output_offsets_, std::min(kBlock, s_.out - o),
-                  &output_blocks_[b]);
+                  &gathered_[b]);
+      output_blocks_[b] = {gathered_[b].data(), kBlock};
     }
   }
 
@@ -202,7 +215,7 @@ class ChunkProducts {
       const auto add = narrow ? AddProducts<8, 1> : AddProducts<4, 2>;
       const std::int64_t step = narrow ? 8 : 4;
       for (std::int64_t i = 0; i < width; i += step) {
-        add(cell_block_.data() + i, output_blocks_[b].data(), cell_offsets_.size(), s_.out,
+        add(cell_block_.data() + i, output_blocks_[b], cell_offsets_.size(), s_.out,
             row + i * s_.out);
       }
     }
@@ -216,7 +229,8 @@ class ChunkProducts {
 
   CellConvShape s_;
   std::vector<std::int64_t> cell_offsets_, output_offsets_;
-  std::vector<Block> output_blocks_;
+  std::vector<ChunkOutputs> output_blocks_;
+  std::vector<Block> gathered_;  // of more than one block; one lies side by side as it is
   Block cell_block_;
 };
 
@@ -285,9 +299,10 @@ void CellConvWeightGradient(const CellConvShape& s, const float* cells,
                             const float* output_gradient, float* gradient) {
   std::fill(gradient, gradient + 8 * s.in * s.out, 0.0F);
   const std::int64_t g = s.h - 1, positions = s.count * g * g * g;
-  // A task belongs to one thread: the same sums for any number of them.
-  const std::int64_t blocks = (s.in + kBlock - 1) / kBlock;
-  at::parallel_for(0, 8 * blocks, 1, [&](std::int64_t begin, std::int64_t end) {
+  // A task belongs to one piece: the same sums for any number of threads.
+  const std::int64_t blocks = (s.in + kBlock - 1) / kBlock, tasks = 8 * blocks;
+  const std::int64_t wanted = PieceThreads() > 1 ? kPiecesAThread * PieceThreads() : 1;
+  ForRanges(tasks, (tasks + wanted - 1) / wanted, [&](std::int64_t begin, std::int64_t end) {
     ChunkProducts products(s);
     for (std::int64_t first = 0; first < positions; first += kChunk) {
       products.Gather(first, std::min(positions, first + kChunk), output_gradient);

@@ -1,13 +1,14 @@
 #include "antigrasp/models/few_bends.h"
 
 #include <ATen/ATen.h>
-#include <ATen/Parallel.h>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
+
+#include "antigrasp/core/pieces.h"
 
 namespace antigrasp {
 namespace {
@@ -181,9 +182,7 @@ at::Tensor WithFewBends(const at::Tensor& distances, const FewBends& options) {
   at::Tensor faired = distances.detach().clone(at::MemoryFormat::Contiguous);
   const std::int64_t r = faired.size(4);
   auto* data = faired.data_ptr<float>();
-  at::parallel_for(0, faired.size(0), 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) Fair(options, r, data + i * r * r * r);
-  });
+  ForPieces(faired.size(0), [&](std::int64_t i) { Fair(options, r, data + i * r * r * r); });
   return faired;
 }
 

@@ -1,10 +1,10 @@
 #include <ATen/ATen.h>
-#include <ATen/Parallel.h>
 #include <torch/csrc/autograd/custom_function.h>
 
 #include <algorithm>
 #include <vector>
 
+#include "antigrasp/core/pieces.h"
 #include "antigrasp/models/cell_conv.h"
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/libtorch.h"
@@ -50,7 +50,7 @@ std::vector<float> Panels(const at::Tensor& weight, bool of_outputs) {
   const std::int64_t a = weight.size(0), b = weight.size(1);
   const std::int64_t width = of_outputs ? a : 8 * b, depth = of_outputs ? 8 * b : a;
   std::vector<float> panels(a * b * kTaps);
-  at::parallel_for(0, a, 8, [&](std::int64_t begin, std::int64_t end) {
+  ForRanges(a, 8, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t o = begin; o < end; ++o) {
       for (std::int64_t t = 0; t < kTaps; ++t) {
         const auto [s, p] = SplitTap(t);

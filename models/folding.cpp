@@ -1,11 +1,11 @@
 #include "antigrasp/models/folding.h"
 
 #include <ATen/ATen.h>
-#include <ATen/Parallel.h>
 #include <torch/csrc/autograd/custom_function.h>
 
 #include <algorithm>
 
+#include "antigrasp/core/pieces.h"
 #include "antigrasp/models/fold_cells.h"
 
 namespace antigrasp {
@@ -48,9 +48,7 @@ at::Tensor MoveSamples(const at::Tensor& source, at::IntArrayRef shape, const Mo
   const std::int64_t from_size = from.numel() / shape[0], to_size = result.numel() / shape[0];
   const float* in = from.data_ptr<float>();
   float* out = result.data_ptr<float>();
-  at::parallel_for(0, shape[0], 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) move(in + i * from_size, out + i * to_size);
-  });
+  ForPieces(shape[0], [&](std::int64_t i) { move(in + i * from_size, out + i * to_size); });
   return result;
 }
 

@@ -1,12 +1,13 @@
 #include "antigrasp/models/largest_piece.h"
 
 #include <ATen/ATen.h>
-#include <ATen/Parallel.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
+
+#include "antigrasp/core/pieces.h"
 
 namespace antigrasp {
 namespace {
@@ -48,18 +49,16 @@ at::Tensor LargestPiece(const at::Tensor& values) {
   at::Tensor kept = values.detach().clone(at::MemoryFormat::Contiguous);
   const std::int64_t r = kept.size(4), nodes = r * r * r;
   auto* data = kept.data_ptr<float>();
-  at::parallel_for(0, kept.size(0), 1, [&](std::int64_t begin, std::int64_t end) {
+  ForPieces(kept.size(0), [&](std::int64_t i) {
     std::vector<std::int32_t> piece;
-    for (std::int64_t i = begin; i < end; ++i) {
-      float* value = data + i * nodes;
-      const std::vector<std::int64_t> sizes = NumberPieces(value, r, &piece);
-      if (sizes.size() < 2) continue;
-      const auto largest =
-          std::max_element(sizes.begin(), sizes.end()) - sizes.begin() + 1;  // the first of equals
-      for (std::int64_t node = 0; node < nodes; ++node) {
-        const std::int32_t number = piece[static_cast<std::size_t>(node)];
-        if (number != 0 && number != largest) value[node] = -value[node];
-      }
+    float* value = data + i * nodes;
+    const std::vector<std::int64_t> sizes = NumberPieces(value, r, &piece);
+    if (sizes.size() < 2) return;
+    const auto largest =
+        std::max_element(sizes.begin(), sizes.end()) - sizes.begin() + 1;  // the first of equals
+    for (std::int64_t node = 0; node < nodes; ++node) {
+      const std::int32_t number = piece[static_cast<std::size_t>(node)];
+      if (number != 0 && number != largest) value[node] = -value[node];
     }
   });
   return kept;

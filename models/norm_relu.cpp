@@ -1,12 +1,12 @@
 #include "antigrasp/models/norm_relu.h"
 
-#include <ATen/Parallel.h>
 #include <torch/csrc/autograd/custom_function.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "antigrasp/core/pieces.h"
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/norm_rows.h"
 
@@ -26,12 +26,12 @@ struct Rows {
   // Calls visit(chunk, first row, end row), each chunk in one thread.
   template <typename Visit>
   void ForChunks(const Visit& visit) const {
-    at::parallel_for(0, Chunks(), std::max<std::int64_t>(1, 256 / channels),
-                     [&](std::int64_t begin, std::int64_t end) {
-                       for (std::int64_t i = begin; i < end; ++i) {
-                         visit(i, i * kChunk, std::min(count, (i + 1) * kChunk));
-                       }
-                     });
+    ForRanges(Chunks(), std::max<std::int64_t>(1, 256 / channels),
+              [&](std::int64_t begin, std::int64_t end) {
+                for (std::int64_t i = begin; i < end; ++i) {
+                  visit(i, i * kChunk, std::min(count, (i + 1) * kChunk));
+                }
+              });
   }
   std::int64_t Chunks() const { return (count + kChunk - 1) / kChunk; }
 

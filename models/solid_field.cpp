@@ -1,10 +1,10 @@
 #include "antigrasp/models/solid_field.h"
 
 #include <ATen/ATen.h>
-#include <ATen/Parallel.h>
 #include <torch/csrc/autograd/custom_function.h>
 
 #include "antigrasp/core/check.h"
+#include "antigrasp/core/pieces.h"
 #include "antigrasp/models/solid_rows.h"
 #include "antigrasp/models/solid_terms.h"
 
@@ -49,10 +49,8 @@ class UnionFunction : public torch::autograd::Function<UnionFunction> {
     const at::Tensor coordinates = NodeCoordinates(r, parts.options());
     const auto *first = parts.data_ptr<float>(), *x = coordinates.data_ptr<float>();
     const std::int64_t count = parts.size(1);
-    at::parallel_for(0, parts.size(0), 1, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i) {
-        visit(i, solid::Solid{first + i * count * kPartColumns, count, x, r});
-      }
+    ForPieces(parts.size(0), [&](std::int64_t i) {
+      visit(i, solid::Solid{first + i * count * kPartColumns, count, x, r});
     });
   }
 };

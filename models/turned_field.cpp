@@ -1,10 +1,10 @@
 #include "antigrasp/models/turned_field.h"
 
 #include <ATen/ATen.h>
-#include <ATen/Parallel.h>
 #include <torch/csrc/autograd/custom_function.h>
 
 #include "antigrasp/core/check.h"
+#include "antigrasp/core/pieces.h"
 #include "antigrasp/models/solid_terms.h"
 #include "antigrasp/models/turned_rows.h"
 
@@ -55,10 +55,8 @@ class TurnedFunction : public torch::autograd::Function<TurnedFunction> {
     const at::Tensor coordinates = NodeCoordinates(r, outlines.options());
     const auto *first = outlines.data_ptr<float>(), *x = coordinates.data_ptr<float>();
     const std::int64_t count = outlines.size(1);
-    at::parallel_for(0, outlines.size(0), 1, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i) {
-        visit(i, turned::Outline{first + i * count * 2, count, x, r});
-      }
+    ForPieces(outlines.size(0), [&](std::int64_t i) {
+      visit(i, turned::Outline{first + i * count * 2, count, x, r});
     });
   }
 };

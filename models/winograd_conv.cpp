@@ -1,7 +1,6 @@
 #include "antigrasp/models/winograd_conv.h"
 
-#include <ATen/Parallel.h>
-
+#include "antigrasp/core/pieces.h"
 #include "antigrasp/models/winograd_sums.h"
 #include "antigrasp/models/winograd_tiles.h"
 #include "antigrasp/models/winograd_weights.h"
@@ -14,7 +13,7 @@ namespace {
 constexpr std::int64_t kDepth = 128;    // of products summed at a time: a panel's rows stay in L1
 constexpr std::int64_t kColumns = 128;  // cells' channels made at a time
 
-// One call: the layer and the buffers of one thread.
+// A piece of a call: the layer and the buffers.
 class Convolution {
  public:
   Convolution(const CellConvShape& shape, const Panels& panels, std::int64_t depth,
@@ -28,8 +27,11 @@ class Convolution {
         values_(AllocateFloats(9 * value_step_)),
         products_(AllocateFloats(9 * product_step_)) {}
 
+  // Channels [column, column + width) of the outputs.
   template <int Z>
-  void FillOutputs(const TileBlock& block, const float* cells, const float* bias, float* outputs) {
+  void FillOutputs(const TileBlock& block, std::int64_t column, std::int64_t width,
+                   const float* cells, const float* bias, float* outputs) {
+    const float* panels = panels_.values.get() + 9 * Z * panels_.step + column * s_.in;
     for (std::int64_t first = 0; first < s_.in; first += kDepth) {
       const std::int64_t depth = std::min(kDepth, s_.in - first);
       for (std::int64_t r = 0; r < block.rows; ++r) {
@@ -39,21 +41,22 @@ class Convolution {
       for (int k = 0; k < 9; ++k) {
         add_products_({.rows = block.rows,
                        .depth = depth,
-                       .width = s_.out,
+                       .width = width,
                        .left = values_.get() + k * value_step_,
                        .left_row_step = kDepth,
                        .left_depth_step = 1,
-                       .right = panels_.values.get() + (9 * Z + k) * panels_.step + first * kPanel,
+                       .right = panels + k * panels_.step + first * kPanel,
                        .right_panel_step = s_.in * kPanel,
                        .sums = products_.get() + k * product_step_,
-                       .sums_row_step = s_.out,
+                       .sums_row_step = width,
                        .sums_panel_step = kPanel,
                        .first = first == 0});
       }
     }
     for (std::int64_t r = 0; r < block.count; ++r) {
-      AddToOutputs<Z>(products_.get() + r * s_.out, product_step_, s_.out, bias, output_,
-                      outputs + block.outputs[r]);
+      AddToOutputs<Z>(products_.get() + r * width, product_step_, width,
+                      bias != nullptr ? bias + column : nullptr, output_,
+                      outputs + block.outputs[r] + column);
     }
   }
 
@@ -94,6 +97,24 @@ class Convolution {
   Floats values_, products_;  // of the nine values of a plane
 };
 
+// How a call is cut: tiles and channels of a piece. No number depends on it, so that it may depend
+// on the threads: one thread does best with as much as its caches hold.
+struct Cut {
+  std::int64_t tiles, columns;
+};
+
+constexpr std::int64_t kPiecesAThread = 4, kLeastColumns = 2 * kPanel, kLeastTiles = 32;
+
+Cut CutOf(std::int64_t tiles, std::int64_t columns, Cut cut) {
+  const std::int64_t wanted = PieceThreads() > 1 ? kPiecesAThread * PieceThreads() : 1;
+  const auto pieces = [&] {
+    return ((tiles + cut.tiles - 1) / cut.tiles) * ((columns + cut.columns - 1) / cut.columns);
+  };
+  while (pieces() < wanted && cut.columns % (2 * kLeastColumns) == 0) cut.columns /= 2;
+  while (pieces() < wanted && cut.tiles > kLeastTiles) cut.tiles /= 2;
+  return cut;
+}
+
 }  // namespace
 }  // namespace winograd
 
@@ -101,16 +122,18 @@ void WinogradConv(const CellConvShape& s, const float* cells, const float* weigh
                   const float* bias, float* outputs) {
   using namespace winograd;
   const Panels panels = MakePanels(s, weight, true);
-  const std::int64_t t = (s.h - 1) / 2;
+  const std::int64_t t = (s.h - 1) / 2, tiles = s.count * t * t * t;
+  const Cut cut = CutOf(tiles, s.out, {kTiles, s.out});
+  const std::int64_t blocks = (tiles + cut.tiles - 1) / cut.tiles;
   // An output's sum does not depend on the tiles of its block: the same bits for any threads.
-  at::parallel_for(0, s.count * t * t * t, 8, [&](std::int64_t begin, std::int64_t end) {
-    Convolution convolution(s, panels, kDepth, s.out);
-    for (std::int64_t first = begin; first < end; first += kTiles) {
-      const TileBlock block(s, first, std::min(kTiles, end - first));
-      convolution.FillOutputs<0>(block, cells, bias, outputs);
-      convolution.FillOutputs<1>(block, cells, bias, outputs);
-      convolution.FillOutputs<2>(block, cells, bias, outputs);
-    }
+  ForPieces(blocks * ((s.out + cut.columns - 1) / cut.columns), [&](std::int64_t i) {
+    const std::int64_t first = i % blocks * cut.tiles, c = i / blocks * cut.columns;
+    const std::int64_t width = std::min(cut.columns, s.out - c);
+    const TileBlock block(s, first, std::min(cut.tiles, tiles - first));
+    Convolution convolution(s, panels, kDepth, width);
+    convolution.FillOutputs<0>(block, c, width, cells, bias, outputs);
+    convolution.FillOutputs<1>(block, c, width, cells, bias, outputs);
+    convolution.FillOutputs<2>(block, c, width, cells, bias, outputs);
   });
 }
 
@@ -118,24 +141,24 @@ void WinogradConvTranspose(const CellConvShape& s, const float* outputs, const f
                            float* cells) {
   using namespace winograd;
   const Panels panels = MakePanels(s, weight, false);
-  const std::int64_t t = (s.h - 1) / 2, tiles = t * t * t, sample_size = s.h * s.h * s.h * s.in;
-  // Tiles share cells: a sample belongs to one thread, and its tiles come in an order that does not
-  // depend on the samples around it.
-  const std::int64_t group = std::max<std::int64_t>(1, kTiles / tiles);
-  at::parallel_for(0, s.count, 1, [&](std::int64_t begin, std::int64_t end) {
+  const std::int64_t t = (s.h - 1) / 2, tiles = t * t * t, sample_cells = s.h * s.h * s.h;
+  // Tiles share cells: a sample's channels belong to one piece, and its tiles come in an order that
+  // does not depend on the samples around it.
+  const Cut cut = CutOf(s.count * tiles, s.in, {std::max(kTiles, tiles), kColumns});
+  const std::int64_t group = std::max<std::int64_t>(1, cut.tiles / tiles);
+  const std::int64_t groups = (s.count + group - 1) / group;
+  ForPieces(groups * ((s.in + cut.columns - 1) / cut.columns), [&](std::int64_t i) {
+    const std::int64_t sample = i % groups * group, next = std::min(s.count, sample + group);
+    const std::int64_t c = i / groups * cut.columns, width = std::min(cut.columns, s.in - c);
+    for (std::int64_t cell = sample * sample_cells; cell < next * sample_cells; ++cell) {
+      std::fill_n(cells + cell * s.in + c, width, 0.0F);
+    }
     Convolution convolution(s, panels, s.out, kColumns);
-    for (std::int64_t sample = begin; sample < end; sample += group) {
-      const std::int64_t next = std::min(end, sample + group);
-      std::fill(cells + sample * sample_size, cells + next * sample_size, 0.0F);
-      for (std::int64_t first = sample * tiles; first < next * tiles; first += kTiles) {
-        const TileBlock block(s, first, std::min(kTiles, next * tiles - first));
-        for (std::int64_t c = 0; c < s.in; c += kColumns) {
-          const std::int64_t width = std::min(kColumns, s.in - c);
-          convolution.FillCells<0>(block, c, width, outputs, cells);
-          convolution.FillCells<1>(block, c, width, outputs, cells);
-          convolution.FillCells<2>(block, c, width, outputs, cells);
-        }
-      }
+    for (std::int64_t first = sample * tiles; first < next * tiles; first += kTiles) {
+      const TileBlock block(s, first, std::min(kTiles, next * tiles - first));
+      convolution.FillCells<0>(block, c, width, outputs, cells);
+      convolution.FillCells<1>(block, c, width, outputs, cells);
+      convolution.FillCells<2>(block, c, width, outputs, cells);
     }
   });
 }

@@ -1,5 +1,4 @@
-#include <ATen/Parallel.h>
-
+#include "antigrasp/core/pieces.h"
 #include "antigrasp/models/winograd_conv.h"
 #include "antigrasp/models/winograd_sums.h"
 #include "antigrasp/models/winograd_tiles.h"
@@ -10,10 +9,11 @@ namespace antigrasp {
 namespace winograd {
 namespace {
 
-// The gradients of the factors of one block of inputs, summed over blocks of tiles.
+// Gradients of factors of one block of inputs, summed over blocks of tiles: sums [27][out / 16]
+// [rows][16], the 27 SumStep() floats apart.
 class BlockGradient {
  public:
-  BlockGradient(const CellConvShape& shape, const InputBlock& block)
+  BlockGradient(const CellConvShape& shape, const InputBlock& block, float* sums)
       : s_(shape),
         block_(block),
         rows_(4 * block.width),
@@ -21,10 +21,14 @@ class BlockGradient {
         output_(StepsOf(shape.h - 1, shape.out)),
         value_step_(kTiles * rows_ + kPadding),
         spread_step_(kTiles * shape.out + kPadding),
-        sum_step_(rows_ * shape.out + kPadding),
+        sum_step_(SumStep(shape, block.width)),
         values_(AllocateFloats(9 * value_step_)),
         spread_(AllocateFloats(9 * spread_step_)),
-        sums_(AllocateFloats(27 * sum_step_)) {}
+        sums_(sums) {}
+
+  static std::int64_t SumStep(const CellConvShape& shape, std::int64_t width) {
+    return 4 * width * shape.out + kPadding;
+  }
 
   template <int Z>
   void Add(const TileBlock& tiles, const float* cells, const float* output_gradient, bool first) {
@@ -48,15 +52,11 @@ class BlockGradient {
                      .left_depth_step = rows_,
                      .right = spread_.get() + k * spread_step_,
                      .right_panel_step = kTiles * kPanel,
-                     .sums = sums_.get() + (9 * Z + k) * sum_step_,
+                     .sums = sums_ + (9 * Z + k) * sum_step_,
                      .sums_row_step = kPanel,
                      .sums_panel_step = rows_ * kPanel,
                      .first = first});
     }
-  }
-
-  void Finish(float* weight_gradient) const {
-    GatherWeightGradient(s_, block_, sums_.get(), sum_step_, weight_gradient);
   }
 
  private:
@@ -66,7 +66,8 @@ class BlockGradient {
   std::int64_t rows_;
   Steps cell_, output_;
   std::int64_t value_step_, spread_step_, sum_step_;
-  Floats values_, spread_, sums_;
+  Floats values_, spread_;
+  float* sums_;
 };
 
 }  // namespace
@@ -77,18 +78,23 @@ void WinogradConvWeightGradient(const CellConvShape& s, const float* cells,
   using namespace winograd;
   const std::int64_t channels = s.in / 8, t = (s.h - 1) / 2, tiles = s.count * t * t * t;
   const std::int64_t width = channels % 16 == 0 ? 16 : 8, blocks = channels / width;
-  // A block of inputs belongs to one thread: the same sums for any number of them.
-  at::parallel_for(0, 2 * blocks, 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) {
-      BlockGradient gradient(s, {i % 2, i / 2 * width, width});
-      for (std::int64_t first = 0; first < tiles; first += kTiles) {
-        const TileBlock block(s, first, std::min(kTiles, tiles - first));
-        gradient.Add<0>(block, cells, output_gradient, first == 0);
-        gradient.Add<1>(block, cells, output_gradient, first == 0);
-        gradient.Add<2>(block, cells, output_gradient, first == 0);
-      }
-      gradient.Finish(weight_gradient);
+  const auto block_of = [&](std::int64_t i) { return InputBlock{i % 2, i / 2 * width, width}; };
+  const std::int64_t step = BlockGradient::SumStep(s, width);
+  const Floats sums = AllocateFloats(2 * blocks * 27 * step);
+  // A sum belongs to one piece, the same for any number of threads: three planes of a block or one.
+  const std::int64_t cuts = PieceThreads() > 1 && 2 * blocks < 4 * PieceThreads() ? 3 : 1;
+  ForPieces(2 * blocks * cuts, [&](std::int64_t i) {
+    const std::int64_t plane = cuts == 3 ? i / (2 * blocks) : -1, b = i % (2 * blocks);
+    BlockGradient gradient(s, block_of(b), sums.get() + b * 27 * step);
+    for (std::int64_t first = 0; first < tiles; first += kTiles) {
+      const TileBlock block(s, first, std::min(kTiles, tiles - first));
+      if (plane <= 0) gradient.Add<0>(block, cells, output_gradient, first == 0);
+      if (plane < 0 || plane == 1) gradient.Add<1>(block, cells, output_gradient, first == 0);
+      if (plane < 0 || plane == 2) gradient.Add<2>(block, cells, output_gradient, first == 0);
     }
+  });
+  ForPieces(2 * blocks, [&](std::int64_t b) {
+    GatherWeightGradient(s, block_of(b), sums.get() + b * 27 * step, step, weight_gradient);
   });
 }
 

@@ -1,7 +1,8 @@
 #include "antigrasp/models/winograd_weights.h"
 
-#include <ATen/Parallel.h>
 #include <immintrin.h>
+
+#include "antigrasp/core/pieces.h"
 
 // Compiled for AVX2 and FMA, like all of Winograd's convolution.
 namespace antigrasp::winograd {
@@ -109,27 +110,23 @@ Panels MakePanels(const CellConvShape& s, const float* weight, bool of_outputs) 
   const std::int64_t along = of_outputs ? channels * kTaps : kTaps;  // floats between columns
   const std::int64_t across = of_outputs ? kTaps : channels * kTaps;
   Panels panels{AllocateFloats(27 * step), step};
-  const auto make = [&](std::int64_t begin, std::int64_t end) {
+  ForPieces((columns + kPanel - 1) / kPanel, [&](std::int64_t panel) {
     __m256 taps[kTaps];
-    for (std::int64_t panel = begin; panel < end; ++panel) {
-      for (std::int64_t i = 0; i < rounds; ++i) {
-        for (std::int64_t c = panel * kPanel; c < std::min(columns, (panel + 1) * kPanel);
-             c += kLanes) {
-          LoadTaps(weight + i * across + c * along, along, taps);
-          for (int p = 0; p < 8; ++p) {
-            const std::int64_t column = of_outputs ? c : p * channels + c;
-            const std::int64_t row = of_outputs ? p * channels + i : i;
-            SpreadTaps(
-                taps, p,
-                panels.values.get() + (column / kPanel * rows + row) * kPanel + column % kPanel,
-                step);
-          }
+    for (std::int64_t i = 0; i < rounds; ++i) {
+      for (std::int64_t c = panel * kPanel; c < std::min(columns, (panel + 1) * kPanel);
+           c += kLanes) {
+        LoadTaps(weight + i * across + c * along, along, taps);
+        for (int p = 0; p < 8; ++p) {
+          const std::int64_t column = of_outputs ? c : p * channels + c;
+          const std::int64_t row = of_outputs ? p * channels + i : i;
+          SpreadTaps(
+              taps, p,
+              panels.values.get() + (column / kPanel * rows + row) * kPanel + column % kPanel,
+              step);
         }
       }
     }
-  };
-  at::parallel_for(0, (columns + kPanel - 1) / kPanel, std::max<std::int64_t>(1, 64 / rounds),
-                   make);
+  });
   return panels;
 }
 

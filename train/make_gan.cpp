@@ -15,8 +15,8 @@ std::unique_ptr<ShapeModel> MakeGan(const RunConfig& config) {
 }
 
 GanTrainer MakeTrainer(const RunConfig& config) {
-  const int threads = config.torch_threads > 0 ? config.torch_threads : config.threads;
-  SetTorchThreads(threads > 0 ? threads : HardwareThreads());
+  const int asked = config.torch_threads > 0 ? config.torch_threads : config.threads;
+  const int threads = asked > 0 ? asked : HardwareThreads();
   const std::string expected = "a device this LibTorch offers: cpu" +
                                std::string(torch::cuda::is_available() ? ", cuda" : " only");
   try {
@@ -24,6 +24,7 @@ GanTrainer MakeTrainer(const RunConfig& config) {
     if (device.is_cuda() && !torch::cuda::is_available()) {
       throw InputError("run.device = " + config.device, "--device", expected);
     }
+    SetTorchThreads(threads, ThreadsOfLibTorch(config.model, device.is_cpu(), threads));
     // Every step convolves the same shapes: trying cuDNN's algorithms once pays.
     if (device.is_cuda()) at::globalContext().setBenchmarkCuDNN(true);
     return GanTrainer(config.model, config.gan, config.seed, device);

@@ -1,6 +1,5 @@
 #include "antigrasp/models/folding.h"
 
-#include <ATen/Parallel.h>
 #include <gtest/gtest.h>
 #include <torch/autograd.h>
 #include <torch/types.h>
@@ -8,6 +7,7 @@
 #include <array>
 #include <utility>
 
+#include "antigrasp/core/pieces.h"
 #include "antigrasp/core/rng.h"
 #include "antigrasp/models/random_tensor.h"
 
@@ -140,9 +140,9 @@ TEST(Folding, UpConvEqualsThePlainTransposedConvolutionWithItsGradients) {
 
 TEST(Folding, ConvolutionsGiveTheSameBitsWithAnyNumberOfThreads) {
   std::vector<torch::Tensor> first;
-  const int threads_before = at::get_num_threads();
+  const int threads_before = PieceThreads();
   for (const int threads : {1, 2, 5}) {
-    at::set_num_threads(threads);
+    SetPieceThreads(threads);
     const torch::Tensor folded = Normal({7, 24, 5, 5, 5}, 20).requires_grad_();
     const torch::Tensor weight = Normal({40, 3, 4, 4, 4}, 21).requires_grad_();
     const torch::Tensor down = DownConv(folded, weight, torch::zeros({40}));
@@ -155,7 +155,7 @@ TEST(Folding, ConvolutionsGiveTheSameBitsWithAnyNumberOfThreads) {
       EXPECT_TRUE(torch::equal(all[i], first[i])) << threads << " threads, tensor " << i;
     }
   }
-  at::set_num_threads(threads_before);
+  SetPieceThreads(threads_before);
 }
 
 TEST(Folding, EmphasizeEdgesSubtractsTheLaplacianOfAGridThatEnds) {

@@ -1,11 +1,11 @@
 #include "antigrasp/models/norm_relu.h"
 
-#include <ATen/Parallel.h>
 #include <gtest/gtest.h>
 #include <torch/autograd.h>
 #include <torch/types.h>
 #include <torch/utils.h>
 
+#include "antigrasp/core/pieces.h"
 #include "antigrasp/core/rng.h"
 #include "antigrasp/models/libtorch.h"
 #include "antigrasp/models/random_tensor.h"
@@ -82,10 +82,10 @@ TEST(NormRelu, EvaluatesWithStatisticsAveragedOverAllBatches) {
 }
 
 TEST(NormRelu, GivesTheSameBitsWithAnyNumberOfThreads) {
-  const int threads_before = at::get_num_threads();
+  const int threads_before = PieceThreads();
   std::vector<torch::Tensor> first;
   for (const int threads : {1, 2, 3}) {
-    at::set_num_threads(threads);
+    SetPieceThreads(threads);
     torch::nn::BatchNorm3d norm = Norm(16);
     torch::Tensor x = Normal({7, 16, 8, 8, 8}, 1.0, 3).requires_grad_();
     const torch::Tensor y = NormRelu(norm, x);
@@ -94,7 +94,7 @@ TEST(NormRelu, GivesTheSameBitsWithAnyNumberOfThreads) {
     if (first.empty()) first = all;
     for (std::size_t i = 0; i < all.size(); ++i) EXPECT_TRUE(torch::equal(all[i], first[i])) << i;
   }
-  at::set_num_threads(threads_before);
+  SetPieceThreads(threads_before);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "antigrasp/models/solid_field.h"
 
-#include <ATen/Parallel.h>
 #include <gtest/gtest.h>
 #include <torch/autograd.h>
 #include <torch/types.h>
@@ -12,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "antigrasp/core/pieces.h"
 #include "antigrasp/models/random_tensor.h"
 
 namespace antigrasp {
@@ -170,14 +170,14 @@ TEST(SolidField, EqualsTheOperationsOfTheLibraryAndTheirGradients) {
 TEST(SolidField, BitsDoNotDependOnTheNumberOfThreads) {
   torch::Tensor parts = RandomParts(5, 3);
   parts.set_requires_grad(true);
-  const int before = at::get_num_threads();
+  const int before = PieceThreads();
   std::vector<torch::Tensor> fields, gradients;
   for (const int threads : {1, 3}) {
-    at::set_num_threads(threads);
+    SetPieceThreads(threads);
     fields.push_back(SolidField(parts, 16));
     gradients.push_back(torch::autograd::grad({fields.back().square().sum()}, {parts})[0]);
   }
-  at::set_num_threads(before);
+  SetPieceThreads(before);
   EXPECT_TRUE(torch::equal(fields[0], fields[1]));
   EXPECT_TRUE(torch::equal(gradients[0], gradients[1]));
 }

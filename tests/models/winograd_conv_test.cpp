@@ -1,13 +1,13 @@
 #include "antigrasp/models/winograd_conv.h"
 
 #include <ATen/ATen.h>
-#include <ATen/Parallel.h>
 #include <gtest/gtest.h>
 #include <torch/autograd.h>
 #include <torch/types.h>
 
 #include <array>
 
+#include "antigrasp/core/pieces.h"
 #include "antigrasp/core/rng.h"
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/random_tensor.h"
@@ -66,13 +66,13 @@ TEST(WinogradConv, IsAsExactAsFloat) {
 
 TEST(WinogradConv, GivesTheSameBitsWithAnyNumberOfThreads) {
   if (!HasCellConv()) GTEST_SKIP() << "no AVX2: LibTorch's convolutions do the work";
-  const int threads_before = at::get_num_threads();
+  const int threads_before = PieceThreads();
   // More tiles of a sample than a block takes, as many, and fewer; and an odd number of them.
   for (const Layer& layer :
        {Layer{2, 8, 20, 16}, {3, 8, 16, 16}, {21, 24, 8, 16}, {7, 16, 4, 48}}) {
     std::vector<torch::Tensor> first;
     for (const int threads : {1, 2, 3}) {
-      at::set_num_threads(threads);
+      SetPieceThreads(threads);
       const auto all = Results(layer, torch::kFloat);
       if (first.empty()) first = all;
       for (std::size_t i = 0; i < all.size(); ++i) {
@@ -80,7 +80,7 @@ TEST(WinogradConv, GivesTheSameBitsWithAnyNumberOfThreads) {
       }
     }
   }
-  at::set_num_threads(threads_before);
+  SetPieceThreads(threads_before);
 }
 
 #ifdef __x86_64__  // elsewhere neither kernel is there

@@ -1,0 +1,156 @@
+#include "antigrasp/core/pieces.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace antigrasp {
+namespace {
+
+// Longer than the serial work between most loops, much shorter than a scheduler's slice.
+constexpr std::chrono::microseconds kSpin{40};
+constexpr int kLooksBetweenTimes = 64;
+
+inline void Pause() {
+#ifdef __x86_64__
+  __builtin_ia32_pause();
+#endif
+}
+
+// Whether `done` came true while it was looked at.
+template <typename Done>
+bool Spin(const Done& done) {
+  const auto end = std::chrono::steady_clock::now() + kSpin;
+  do {
+    for (int i = 0; i < kLooksBetweenTimes; ++i) {
+      if (done()) return true;
+      Pause();
+    }
+  } while (std::chrono::steady_clock::now() < end);
+  return done();
+}
+
+// A flag to wait for that costs no system call where nobody sleeps.
+class Signal {
+ public:
+  template <typename Done>
+  void Await(const Done& done) {
+    if (Spin(done)) return;
+    std::unique_lock<std::mutex> lock(mutex_);
+    ++sleepers_;
+    changed_.wait(lock, done);
+    --sleepers_;
+  }
+  // After what makes `done` true. Sequentially consistent with the sleeper's look behind
+  // ++sleepers_.
+  void Notify() {
+    if (sleepers_.load() == 0) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    changed_.notify_all();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::atomic<int> sleepers_{0};
+};
+
+// A loop is open or closed; helpers may enter while it is open, and its owner leaves it when it is
+// closed and empty. One word holds all: the number of the loop, whether it is open, who is inside.
+class Pool {
+ public:
+  static Pool& Get() {
+    static Pool* const pool = new Pool;  // its threads sleep until the process ends
+    return *pool;
+  }
+
+  void SetThreads(int threads) { wanted_ = std::max(1, threads); }
+  int threads() const { return wanted_; }
+
+  bool Take() { return getpid() == process_ && !taken_.test_and_set(std::memory_order_acquire); }
+  void GiveBack() { taken_.clear(std::memory_order_release); }
+
+  void Run(std::int64_t count, const std::function<void(std::int64_t)>& body) {
+    for (; started_ < wanted_ - 1; ++started_) std::thread([this] { Help(); }).detach();
+    count_ = count;
+    body_ = &body;
+    error_ = nullptr;
+    next_ = 0;
+    state_ += kLoop + kOpen;  // it was closed and empty
+    opened_.Notify();
+    Work();
+    state_ -= kOpen;
+    emptied_.Await([this] { return (state_ & kInside) == 0; });
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  static constexpr std::uint64_t kOpen = 1 << 16, kInside = kOpen - 1, kLoop = kOpen << 1;
+
+  void Work() {
+    for (std::int64_t i = next_++; i < count_; i = next_++) {
+      try {
+        (*body_)(i);
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(error_mutex_);
+        if (!error_) error_ = std::current_exception();
+        next_ = count_;
+      }
+    }
+  }
+
+  // Once a loop at most: its pieces are handed out when this thread leaves it.
+  void Help() {
+    std::uint64_t last = 0;
+    while (true) {
+      std::uint64_t seen = 0;
+      opened_.Await([&] {
+        seen = state_;
+        return (seen & kOpen) != 0 && seen / kLoop != last &&
+               static_cast<int>(seen & kInside) + 1 < wanted_;
+      });
+      if (!state_.compare_exchange_strong(seen, seen + 1)) continue;
+      last = seen / kLoop;
+      Work();
+      if ((--state_ & (kOpen | kInside)) == 0) emptied_.Notify();
+    }
+  }
+
+  const pid_t process_ = getpid();
+  std::atomic_flag taken_;
+  std::atomic<int> wanted_{1};
+  int started_ = 0;
+  std::atomic<std::uint64_t> state_{0};
+  // Of the loop; read by those inside.
+  std::int64_t count_ = 0;
+  const std::function<void(std::int64_t)>* body_ = nullptr;
+  std::atomic<std::int64_t> next_{0};
+  std::mutex error_mutex_;
+  std::exception_ptr error_;
+  Signal opened_, emptied_;
+};
+
+}  // namespace
+
+void SetPieceThreads(int threads) { Pool::Get().SetThreads(threads); }
+int PieceThreads() { return Pool::Get().threads(); }
+
+void ForPieces(std::int64_t count, const std::function<void(std::int64_t)>& body) {
+  Pool& pool = Pool::Get();
+  if (count <= 1 || pool.threads() == 1 || !pool.Take()) {
+    for (std::int64_t i = 0; i < count; ++i) body(i);
+    return;
+  }
+  struct Return {
+    Pool* pool;
+    ~Return() { pool->GiveBack(); }
+  } const at_the_end{&pool};
+  pool.Run(count, body);
+}
+
+}  // namespace antigrasp
