@@ -8,12 +8,13 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 namespace antigrasp {
 namespace {
 
 // Longer than the serial work between most loops, much shorter than a scheduler's slice.
-constexpr std::chrono::microseconds kSpin{40};
+constexpr std::chrono::microseconds kSpin{100};
 constexpr int kLooksBetweenTimes = 64;
 
 inline void Pause() {
@@ -60,6 +61,36 @@ class Signal {
   std::atomic<int> sleepers_{0};
 };
 
+// Pieces [begin, end) of which a thread takes the first and the others the last: what it did in the
+// loop before is in its caches.
+class alignas(64) Share {
+ public:
+  void Set(std::uint32_t begin, std::uint32_t end) { range_ = Packed(begin, end); }
+  bool TakeFirst(std::int64_t* piece) {
+    return Take([&](std::uint32_t* begin, std::uint32_t*) { *piece = (*begin)++; });
+  }
+  bool TakeLast(std::int64_t* piece) {
+    return Take([&](std::uint32_t*, std::uint32_t* end) { *piece = --(*end); });
+  }
+
+ private:
+  static std::uint64_t Packed(std::uint32_t begin, std::uint32_t end) {
+    return std::uint64_t{begin} << 32 | end;
+  }
+  template <typename Change>
+  bool Take(const Change& change) {
+    std::uint64_t seen = range_;
+    while (true) {
+      auto begin = static_cast<std::uint32_t>(seen >> 32), end = static_cast<std::uint32_t>(seen);
+      if (begin >= end) return false;
+      change(&begin, &end);
+      if (range_.compare_exchange_weak(seen, Packed(begin, end))) return true;
+    }
+  }
+
+  std::atomic<std::uint64_t> range_{0};
+};
+
 // A loop is open or closed; helpers may enter while it is open, and its owner leaves it when it is
 // closed and empty. One word holds all: the number of the loop, whether it is open, who is inside.
 class Pool {
@@ -76,14 +107,21 @@ class Pool {
   void GiveBack() { taken_.clear(std::memory_order_release); }
 
   void Run(std::int64_t count, const std::function<void(std::int64_t)>& body) {
-    for (; started_ < wanted_ - 1; ++started_) std::thread([this] { Help(); }).detach();
-    count_ = count;
+    const std::int64_t threads = wanted_;
+    if (std::ssize(shares_) != threads) shares_ = std::vector<Share>(threads);
+    for (; started_ < shares_.size(); ++started_) {
+      std::thread([this, own = started_] { Help(own); }).detach();
+    }
+    for (std::int64_t i = 0; i < threads; ++i) {
+      shares_[i].Set(static_cast<std::uint32_t>(i * count / threads),
+                     static_cast<std::uint32_t>((i + 1) * count / threads));
+    }
     body_ = &body;
     error_ = nullptr;
-    next_ = 0;
+    failed_ = false;
     state_ += kLoop + kOpen;  // it was closed and empty
     opened_.Notify();
-    Work();
+    Work(0);
     state_ -= kOpen;
     emptied_.Await([this] { return (state_ & kInside) == 0; });
     if (error_) std::rethrow_exception(error_);
@@ -92,31 +130,38 @@ class Pool {
  private:
   static constexpr std::uint64_t kOpen = 1 << 16, kInside = kOpen - 1, kLoop = kOpen << 1;
 
-  void Work() {
-    for (std::int64_t i = next_++; i < count_; i = next_++) {
+  bool Next(std::size_t own, std::int64_t* piece) {
+    if (shares_[own].TakeFirst(piece)) return true;
+    for (std::size_t i = 1; i < shares_.size(); ++i) {
+      if (shares_[(own + i) % shares_.size()].TakeLast(piece)) return true;
+    }
+    return false;
+  }
+
+  void Work(std::size_t own) {
+    for (std::int64_t piece = 0; !failed_ && Next(own, &piece);) {
       try {
-        (*body_)(i);
+        (*body_)(piece);
       } catch (...) {
         const std::lock_guard<std::mutex> lock(error_mutex_);
         if (!error_) error_ = std::current_exception();
-        next_ = count_;
+        failed_ = true;
       }
     }
   }
 
   // Once a loop at most: its pieces are handed out when this thread leaves it.
-  void Help() {
+  void Help(std::size_t own) {
     std::uint64_t last = 0;
     while (true) {
       std::uint64_t seen = 0;
       opened_.Await([&] {
         seen = state_;
-        return (seen & kOpen) != 0 && seen / kLoop != last &&
-               static_cast<int>(seen & kInside) + 1 < wanted_;
+        return (seen & kOpen) != 0 && seen / kLoop != last && static_cast<int>(own) < wanted_;
       });
       if (!state_.compare_exchange_strong(seen, seen + 1)) continue;
       last = seen / kLoop;
-      Work();
+      Work(own);
       if ((--state_ & (kOpen | kInside)) == 0) emptied_.Notify();
     }
   }
@@ -124,12 +169,12 @@ class Pool {
   const pid_t process_ = getpid();
   std::atomic_flag taken_;
   std::atomic<int> wanted_{1};
-  int started_ = 0;
+  std::size_t started_ = 1;  // the caller is there
   std::atomic<std::uint64_t> state_{0};
   // Of the loop; read by those inside.
-  std::int64_t count_ = 0;
+  std::vector<Share> shares_;
   const std::function<void(std::int64_t)>* body_ = nullptr;
-  std::atomic<std::int64_t> next_{0};
+  std::atomic<bool> failed_{false};
   std::mutex error_mutex_;
   std::exception_ptr error_;
   Signal opened_, emptied_;

@@ -15,9 +15,8 @@ namespace {
 constexpr int kLanes = 8;       // floats of a vector
 constexpr int kPositions = 6;   // rows of a tile of 16 channels: 12 of the 16 registers are sums
 constexpr int kNarrowRows = 8;  // rows of a tile of 8 channels
-constexpr std::int64_t kGrain = 1 << 20;    // multiply-adds of a piece
-constexpr std::int64_t kPiecesAThread = 4;  // of a weight gradient
-constexpr std::int64_t kChunk = 128;        // positions of a weight gradient that stay in L1
+constexpr std::int64_t kGrain = 1 << 20;  // multiply-adds of a piece
+constexpr std::int64_t kChunk = 128;      // positions of a weight gradient that stay in L1
 constexpr std::int64_t kBlock = 2 * kLanes;
 
 template <int Rows, int Vectors>
@@ -301,16 +300,17 @@ void CellConvWeightGradient(const CellConvShape& s, const float* cells,
   const std::int64_t g = s.h - 1, positions = s.count * g * g * g;
   // A task belongs to one piece: the same sums for any number of threads.
   const std::int64_t blocks = (s.in + kBlock - 1) / kBlock, tasks = 8 * blocks;
-  const std::int64_t wanted = PieceThreads() > 1 ? kPiecesAThread * PieceThreads() : 1;
-  ForRanges(tasks, (tasks + wanted - 1) / wanted, [&](std::int64_t begin, std::int64_t end) {
-    ChunkProducts products(s);
-    for (std::int64_t first = 0; first < positions; first += kChunk) {
-      products.Gather(first, std::min(positions, first + kChunk), output_gradient);
-      for (std::int64_t task = begin; task < end; ++task) {
-        products.Add(static_cast<int>(task / blocks), task % blocks * kBlock, cells, gradient);
-      }
-    }
-  });
+  ForRanges(tasks, (tasks + PieceThreads() - 1) / PieceThreads(),
+            [&](std::int64_t begin, std::int64_t end) {
+              ChunkProducts products(s);
+              for (std::int64_t first = 0; first < positions; first += kChunk) {
+                products.Gather(first, std::min(positions, first + kChunk), output_gradient);
+                for (std::int64_t task = begin; task < end; ++task) {
+                  products.Add(static_cast<int>(task / blocks), task % blocks * kBlock, cells,
+                               gradient);
+                }
+              }
+            });
 }
 
 }  // namespace antigrasp

@@ -70,6 +70,11 @@ void DiscriminatorImpl::Initialize(RngStream* rng) {
   }
 }
 
+// x: not yet cut. The next convolution's cells.
+torch::Tensor DiscriminatorImpl::Cells(std::size_t level, const torch::Tensor& x) {
+  return refine_.empty() ? FoldLeaky(x, kLeak) : Fold(Refine(level, x));
+}
+
 torch::Tensor DiscriminatorImpl::Refine(std::size_t level, const torch::Tensor& x) {
   if (refine_.empty()) return LeakyRelu(x);
   const torch::Tensor y = torch::conv3d(torch::leaky_relu(x, kLeak), refine_[level](), {}, 1, 1);
@@ -109,10 +114,11 @@ torch::Tensor DiscriminatorImpl::ForwardFolded(const torch::Tensor& grids) {
   const auto down = [&](std::size_t i, const torch::Tensor& cells) {
     return DownConv(cells, weights_[i](), biases_[i], compute);
   };
-  torch::Tensor x = Refine(0, down(0, packed));  // [N, c, r / 2, r / 2, r / 2]
-  for (std::size_t i = 1; i < levels; ++i) x = Refine(i, down(i, Fold(x)));  // to 4^3
-  if (PacksFeatures()) x = WithDeviation(x, options_.pack);                  // twice the channels
-  x = LeakyRelu(down(levels, Fold(x)));                                      // 2^3
+  torch::Tensor x = down(0, packed);  // [N, c, r / 2, r / 2, r / 2]
+  for (std::size_t i = 1; i < levels; ++i) x = down(i, Cells(i - 1, x));           // to 4^3
+  x = PacksFeatures() ? Fold(WithDeviation(Refine(levels - 1, x), options_.pack))  // twice as many
+                      : Cells(levels - 1, x);
+  x = LeakyRelu(down(levels, x));  // 2^3
   return torch::linear(x.flatten(1), weights_[levels + 1](), biases_[levels + 1]).squeeze(1);
 }
 

@@ -11,6 +11,12 @@ namespace antigrasp {
 void FoldNodes(const float* grid, int s, int c, float* cells);    // nodes -1 and s are zero
 void UnfoldCells(const float* cells, int s, int c, float* grid);  // drops them
 
+// The same of values that are multiplied by `leak` where they are not above zero; and the
+// way back of the gradient of those cells, `slopes`.
+void FoldLeakyNodes(const float* grid, int s, int c, float leak, float* cells);
+void UnfoldLeakySlopes(const float* slopes, const float* cells, int s, int c, float leak,
+                       float* grid);
+
 // cells, c = 1: smooths the (s + 2)^3 nodes, ring included, with [1 2 1]/4 along each axis, values
 // beyond being zero. A symmetric matrix. May work in place.
 void BlurCells(const float* cells, int s, float* result);

@@ -96,6 +96,34 @@ struct FoldFunction : Function<FoldFunction> {
   }
 };
 
+struct FoldLeakyFunction : Function<FoldLeakyFunction> {
+  static at::Tensor forward(AutogradContext* ctx, const at::Tensor& grid, double leak) {
+    const auto c = static_cast<int>(grid.size(1)), s = static_cast<int>(grid.size(2));
+    const std::int64_t h = s / 2 + 1;
+    const at::Tensor cells =
+        MoveSamples(grid, {grid.size(0), 8 * c, h, h, h},
+                    [=, slope = static_cast<float>(leak)](const float* from, float* to) {
+                      FoldLeakyNodes(from, s, c, slope, to);
+                    });
+    ctx->save_for_backward({cells});
+    ctx->saved_data["leak"] = leak;
+    return cells;
+  }
+  static variable_list backward(AutogradContext* ctx, variable_list grads) {
+    const at::Tensor cells = ctx->get_saved_variables()[0];
+    const auto leak = static_cast<float>(ctx->saved_data["leak"].toDouble());
+    const auto c = static_cast<int>(cells.size(1) / 8), s = static_cast<int>(2 * cells.size(2) - 2);
+    const float* first = cells.data_ptr<float>();
+    const at::Tensor slopes = grads[0].contiguous(kChannelsLast);
+    const float* first_slope = slopes.data_ptr<float>();
+    return {MoveSamples(slopes, {slopes.size(0), c, s, s, s},
+                        [=](const float* from, float* to) {
+                          UnfoldLeakySlopes(from, first + (from - first_slope), s, c, leak, to);
+                        }),
+            at::Tensor()};
+  }
+};
+
 struct UnfoldFunction : Function<UnfoldFunction> {
   static at::Tensor forward(AutogradContext*, const at::Tensor& folded) {
     return UnfoldValues(folded);
@@ -151,6 +179,11 @@ struct EmphasizeFunction : Function<EmphasizeFunction> {
 
 torch::Tensor Fold(const torch::Tensor& grid) { return FoldFunction::apply(grid); }
 torch::Tensor Unfold(const torch::Tensor& folded) { return UnfoldFunction::apply(folded); }
+
+torch::Tensor FoldLeaky(const torch::Tensor& grid, double leak) {
+  if (!HasMoves(grid)) return Fold(at::leaky_relu(grid, leak));
+  return FoldLeakyFunction::apply(grid, leak);
+}
 
 torch::Tensor BlurAndClearRing(const torch::Tensor& folded, bool blur) {
   return BlurAndClearRingFunction::apply(folded, blur);

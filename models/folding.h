@@ -20,6 +20,9 @@ inline constexpr at::MemoryFormat kChannelsLast = at::MemoryFormat::ChannelsLast
 torch::Tensor Fold(const torch::Tensor& grid);
 torch::Tensor Unfold(const torch::Tensor& folded);
 
+// Fold(leaky_relu(grid, leak)).
+torch::Tensor FoldLeaky(const torch::Tensor& grid, double leak);
+
 // conv3d of the unfolded grid, stride 2, padding 1: weight [out, in, 4, 4, 4], bias [out].
 // folded [N, 8 in, h, h, h] -> [N, out, h - 1, h - 1, h - 1]. `compute`: the type in which products
 // are taken (float or bfloat16); tensors in and out are float.

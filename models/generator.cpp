@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "antigrasp/core/check.h"
+#include "antigrasp/models/elementwise.h"
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/libtorch.h"
 #include "antigrasp/models/norm_relu.h"
@@ -136,8 +137,8 @@ torch::Tensor GeneratorImpl::ForwardFolded(const torch::Tensor& z) {
   for (std::size_t i = 0; i < up_weights_.size(); ++i) {  // to [N, c, r / 2, r / 2, r / 2]
     x = Refine(i, Activate(i + 1, Unfold(UpConv(x, up_weights_[i], compute))));
   }
-  x = UpConv(x, last_weight_, compute) + last_bias_;  // [N, 8, h, h, h], h = r / 2 + 1
-  return BlurAndClearRing(x, options_.output_blur).tanh();
+  x = AddNumber(UpConv(x, last_weight_, compute), last_bias_);  // [N, 8, h, h, h], h = r / 2 + 1
+  return Tanh(BlurAndClearRing(x, options_.output_blur));
 }
 
 torch::Tensor GeneratorImpl::forward(const torch::Tensor& z) { return Unfold(ForwardFolded(z)); }

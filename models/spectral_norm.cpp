@@ -2,6 +2,7 @@
 
 #include <torch/utils.h>
 
+#include "antigrasp/models/elementwise.h"
 #include "antigrasp/models/random_tensor.h"
 
 namespace antigrasp {
@@ -55,10 +56,11 @@ torch::Tensor SpectralWeightImpl::forward() {
   if (!normalise_) {
     return weight_;
   }
-  if (is_training()) {
-    Iterate();
-  }
-  return weight_ / Sigma();
+  if (is_training()) Iterate();
+  // A second forward through the same weights would add its gradients in another order.
+  if (!is_training() || !weight_.is_cpu()) return weight_ / Sigma();
+  const torch::Tensor u = u_.clone();  // as in Sigma
+  return DivideBySigma(weight_, u, Normalised(Matrix().detach().t().mv(u)), kEpsilon);
 }
 
 }  // namespace antigrasp

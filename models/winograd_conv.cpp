@@ -125,9 +125,10 @@ void WinogradConv(const CellConvShape& s, const float* cells, const float* weigh
   const std::int64_t t = (s.h - 1) / 2, tiles = s.count * t * t * t;
   const Cut cut = CutOf(tiles, s.out, {kTiles, s.out});
   const std::int64_t blocks = (tiles + cut.tiles - 1) / cut.tiles;
+  const std::int64_t parts = (s.out + cut.columns - 1) / cut.columns;
   // An output's sum does not depend on the tiles of its block: the same bits for any threads.
-  ForPieces(blocks * ((s.out + cut.columns - 1) / cut.columns), [&](std::int64_t i) {
-    const std::int64_t first = i % blocks * cut.tiles, c = i / blocks * cut.columns;
+  ForPieces(blocks * parts, [&](std::int64_t i) {
+    const std::int64_t first = i / parts * cut.tiles, c = i % parts * cut.columns;
     const std::int64_t width = std::min(cut.columns, s.out - c);
     const TileBlock block(s, first, std::min(cut.tiles, tiles - first));
     Convolution convolution(s, panels, kDepth, width);
@@ -147,9 +148,10 @@ void WinogradConvTranspose(const CellConvShape& s, const float* outputs, const f
   const Cut cut = CutOf(s.count * tiles, s.in, {std::max(kTiles, tiles), kColumns});
   const std::int64_t group = std::max<std::int64_t>(1, cut.tiles / tiles);
   const std::int64_t groups = (s.count + group - 1) / group;
-  ForPieces(groups * ((s.in + cut.columns - 1) / cut.columns), [&](std::int64_t i) {
-    const std::int64_t sample = i % groups * group, next = std::min(s.count, sample + group);
-    const std::int64_t c = i / groups * cut.columns, width = std::min(cut.columns, s.in - c);
+  const std::int64_t parts = (s.in + cut.columns - 1) / cut.columns;
+  ForPieces(groups * parts, [&](std::int64_t i) {
+    const std::int64_t sample = i / parts * group, next = std::min(s.count, sample + group);
+    const std::int64_t c = i % parts * cut.columns, width = std::min(cut.columns, s.in - c);
     for (std::int64_t cell = sample * sample_cells; cell < next * sample_cells; ++cell) {
       std::fill_n(cells + cell * s.in + c, width, 0.0F);
     }

@@ -81,8 +81,9 @@ void WinogradConvWeightGradient(const CellConvShape& s, const float* cells,
   const auto block_of = [&](std::int64_t i) { return InputBlock{i % 2, i / 2 * width, width}; };
   const std::int64_t step = BlockGradient::SumStep(s, width);
   const Floats sums = AllocateFloats(2 * blocks * 27 * step);
-  // A sum belongs to one piece, the same for any number of threads: three planes of a block or one.
-  const std::int64_t cuts = PieceThreads() > 1 && 2 * blocks < 4 * PieceThreads() ? 3 : 1;
+  // A sum belongs to one piece, the same for any number of threads: three planes of a block, which
+  // share what they read, or one.
+  const std::int64_t cuts = 2 * blocks < PieceThreads() ? 3 : 1;
   ForPieces(2 * blocks * cuts, [&](std::int64_t i) {
     const std::int64_t plane = cuts == 3 ? i / (2 * blocks) : -1, b = i % (2 * blocks);
     BlockGradient gradient(s, block_of(b), sums.get() + b * 27 * step);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "antigrasp/core/check.h"
+#include "antigrasp/models/slices.h"
 
 namespace antigrasp {
 namespace {
@@ -43,11 +44,13 @@ void Adam::Step(const std::vector<torch::Tensor>& gradients, double learning_rat
     return;
   }
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const torch::Tensor& g = gradients[i];
-    first_[i].mul_(beta1_).add_(g, 1.0 - beta1_);
-    second_[i].mul_(beta2_).addcmul_(g, g, 1.0 - beta2_);
-    const torch::Tensor root = second_[i].div(bias2).sqrt_().add_(kEpsilon);
-    parameters_[i].addcdiv_(first_[i], root, -learning_rate / bias1);
+    OnSlices<4>({parameters_[i], gradients[i], first_[i], second_[i]}, [&](auto s) {
+      const auto& [parameter, g, first, second] = s;
+      first.mul_(beta1_).add_(g, 1.0 - beta1_);
+      second.mul_(beta2_).addcmul_(g, g, 1.0 - beta2_);
+      const torch::Tensor root = second.div(bias2).sqrt_().add_(kEpsilon);
+      parameter.addcdiv_(first, root, -learning_rate / bias1);
+    });
   }
 }
 

@@ -13,6 +13,7 @@
 #include "antigrasp/core/check.h"
 #include "antigrasp/core/rng.h"
 #include "antigrasp/models/generator.h"
+#include "antigrasp/models/slices.h"
 
 namespace antigrasp {
 namespace {
@@ -92,7 +93,7 @@ void AveragedGenerator::Follow(const ShapeGenerator& source, double decay) {
   }
   for (std::size_t i = 0; i < to.size(); ++i) {
     if (decay > 0.0) {
-      to[i].lerp_(from[i], 1.0 - decay);
+      OnSlices<2>({to[i], from[i]}, [&](auto s) { s[0].lerp_(s[1], 1.0 - decay); });
     } else {
       to[i].copy_(from[i]);
     }

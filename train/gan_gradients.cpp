@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "antigrasp/models/elementwise.h"
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/random_tensor.h"
 #include "antigrasp/train/augment.h"
@@ -45,7 +46,7 @@ torch::Tensor GanGradients::Seen(const torch::Tensor& shapes, GanPart* part) con
 LossAndGradients GanGradients::OfDiscriminator(GanPart* part) {
   part->fake = generator_->ForwardFolded(part->z);
   const torch::AutoGradMode gradients(true);
-  const torch::Tensor seen = Seen(torch::cat({part->real, part->fake.detach()}), part);
+  const torch::Tensor seen = Seen(Stacked(part->real, part->fake.detach()), part);
   const auto loss_of = [&](const torch::Tensor& score) {  // [2 batch / pack]
     const auto halves = score.chunk(2);
     return DiscriminatorLoss(options_.loss, halves[0], halves[1]);

@@ -138,6 +138,20 @@ TEST(Folding, UpConvEqualsThePlainTransposedConvolutionWithItsGradients) {
   }
 }
 
+TEST(Folding, FoldLeakyIsFoldOfTheLeakyReluAndSoIsItsGradientBitForBit) {
+  for (const std::int64_t channels : {1, 6, 8, 16, 24}) {
+    torch::Tensor grid = Normal({3, channels, 4, 4, 4}, 23);
+    grid.flatten()[5] = 0.0F;
+    grid.requires_grad_();
+    const torch::Tensor leaky = FoldLeaky(grid, 0.2), plain = Fold(torch::leaky_relu(grid, 0.2));
+    EXPECT_TRUE(torch::equal(leaky, plain)) << channels;
+    const torch::Tensor weights = Normal(leaky.sizes(), 24);
+    EXPECT_TRUE(torch::equal(torch::autograd::grad({(leaky * weights).sum()}, {grid})[0],
+                             torch::autograd::grad({(plain * weights).sum()}, {grid})[0]))
+        << channels;
+  }
+}
+
 TEST(Folding, ConvolutionsGiveTheSameBitsWithAnyNumberOfThreads) {
   std::vector<torch::Tensor> first;
   const int threads_before = PieceThreads();

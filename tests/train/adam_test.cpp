@@ -26,6 +26,24 @@ TEST(Adam, FirstStepMovesEveryParameterByTheRateAgainstItsGradient) {
   }
 }
 
+// Longer than what goes to a thread at a time, and not in the order of its gradient.
+TEST(Adam, LongParametersMoveAsElementsDo) {
+  for (const bool turned : {false, true}) {
+    const torch::Tensor g = torch::linspace(-3, 2, 70000).view({70, 1000});
+    const torch::Tensor gradient = turned ? g.t().contiguous().t() : g;
+    const torch::Tensor x = torch::zeros({70, 1000}), first = torch::zeros({1}),
+                        last = first.clone();
+    Adam whole({x}, 0.5, 0.75), ends({first, last}, 0.5, 0.75);
+    for (int step = 0; step < 2; ++step) {
+      whole.Step({gradient}, 0.5);
+      ends.Step({g[0].slice(0, 0, 1), g[69].slice(0, 999)}, 0.5);
+    }
+    EXPECT_FLOAT_EQ(x[0][0].item<float>(), first.item<float>());
+    EXPECT_FLOAT_EQ(x[69][999].item<float>(), last.item<float>());
+    EXPECT_EQ(torch::count_nonzero(x).item<std::int64_t>(), 70000);
+  }
+}
+
 TEST(Adam, SecondStepIsThatOfTheTwoMeans) {
   const torch::Tensor x = Zeros(1);
   Adam adam({x}, 0.5, 0.75);
