@@ -57,8 +57,8 @@ torch::Tensor SpectralWeightImpl::forward() {
     return weight_;
   }
   if (is_training()) Iterate();
-  // In evaluation a loss may hold two quotients of one W (gan.gradient_penalty), whose gradients are
-  // summed in LibTorch's order.
+  // In evaluation a loss may hold two quotients of one W (gan.gradient_penalty), whose gradients
+  // are summed in LibTorch's order.
   if (!is_training() || !weight_.is_cpu()) return weight_ / Sigma();
   const torch::Tensor u = u_.clone();  // as in Sigma
   return DivideBySigma(weight_, u, Normalised(Matrix().detach().t().mv(u)), kEpsilon);

@@ -27,7 +27,7 @@ struct StepReport {
 
 // The networks, their average, their optimisers and the step count: all that training changes.
 // Random numbers of step t depend on (seed, episode, t) only, so there is no generator state.
-// Same seed and number of LibTorch threads, same bits.
+// Same seed, same bits, with any number of threads (ThreadsOfLibTorch).
 class GanTrainer {
  public:
   GanTrainer(const ModelOptions& model, const GanOptions& options, std::uint64_t seed,

@@ -54,7 +54,7 @@ void Bind(OptionTable* table, RunConfig* c) {
   table->Add("run.seed", &c->seed, "seed of every random stream");
   table->Add("run.threads", &c->threads, 0, 1024, "threads; 0 = all");
   table->Add("run.torch_threads", &c->torch_threads, 0, 1024,
-             "threads of LibTorch; 0 = run.threads; training repeats at the same number");
+             "threads of training; 0 = run.threads");
   table->Add("run.device", &c->device, {}, "device of the networks: cpu, cuda, cuda:1");
   table->Add("run.stl_count", &c->stl_count, 0, 10000, "least graspable objects exported as STL");
   table->Add("run.stl_size_mm", &c->stl_size_mm, 1, 10000, "their largest extent, mm");

@@ -91,7 +91,7 @@ inline bool RefinesParts(const CemOptions& cem) {
 struct RunConfig {
   std::uint64_t seed = 1;
   int threads = 0;             // of everything but LibTorch; 0 = all; no result depends on it
-  int torch_threads = 0;       // of LibTorch; 0 = threads; training repeats at the same number
+  int torch_threads = 0;       // of training and sampling; 0 = threads
   std::string device = "cpu";  // cpu, cuda, cuda:1
   std::string start;  // networks to begin with: checkpoint or name of pretrained ones; no episode 0
   bool fine_tune = false;  // but they are trained on in episode 0
