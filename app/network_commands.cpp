@@ -61,7 +61,7 @@ void RememberArguments(char** argv) { g_arguments = argv; }
 std::filesystem::path PreparedNetworks() {
   const auto program =
       std::filesystem::read_symlink("/proc/self/exe").parent_path() / "antigrasp-networks";
-  AskForTheSameKernelsEverywhere();
+  PrepareForNetworks();
   // c10d logs every try to reach a rank that has not begun yet; we say who waits for whom.
   if (std::getenv("WORLD_SIZE")) setenv("GLOG_minloglevel", "3", kKeepTheUsersOwn);
   TellOfInstalledNetworks(program);

@@ -70,11 +70,6 @@ void DiscriminatorImpl::Initialize(RngStream* rng) {
   }
 }
 
-// x: not yet cut. The next convolution's cells.
-torch::Tensor DiscriminatorImpl::Cells(std::size_t level, const torch::Tensor& x) {
-  return refine_.empty() ? FoldLeaky(x, kLeak) : Fold(Refine(level, x));
-}
-
 torch::Tensor DiscriminatorImpl::Refine(std::size_t level, const torch::Tensor& x) {
   if (refine_.empty()) return LeakyRelu(x);
   const torch::Tensor y = torch::conv3d(torch::leaky_relu(x, kLeak), refine_[level](), {}, 1, 1);
@@ -114,11 +109,17 @@ torch::Tensor DiscriminatorImpl::ForwardFolded(const torch::Tensor& grids) {
   const auto down = [&](std::size_t i, const torch::Tensor& cells) {
     return DownConv(cells, weights_[i](), biases_[i], compute);
   };
-  torch::Tensor x = down(0, packed);  // [N, c, r / 2, r / 2, r / 2]
-  for (std::size_t i = 1; i < levels; ++i) x = down(i, Cells(i - 1, x));           // to 4^3
-  x = PacksFeatures() ? Fold(WithDeviation(Refine(levels - 1, x), options_.pack))  // twice as many
-                      : Cells(levels - 1, x);
-  x = LeakyRelu(down(levels, x));  // 2^3
+  torch::Tensor x = down(0, packed);           // [N, c, r / 2, r / 2, r / 2], not yet cut
+  for (std::size_t i = 1; i <= levels; ++i) {  // to 2^3
+    const bool deviates = PacksFeatures() && i == levels;
+    if (refine_.empty() && !deviates) {
+      x = DownConvLeaky(x, kLeak, weights_[i](), biases_[i], compute);
+      continue;
+    }
+    x = Refine(i - 1, x);
+    x = down(i, Fold(deviates ? WithDeviation(x, options_.pack) : x));  // of twice the channels
+  }
+  x = LeakyRelu(x);
   return torch::linear(x.flatten(1), weights_[levels + 1](), biases_[levels + 1]).squeeze(1);
 }
 

@@ -34,7 +34,6 @@ class DiscriminatorImpl : public torch::nn::Module {
   double LargestSigma();
 
  private:
-  torch::Tensor Cells(std::size_t level, const torch::Tensor& x);
   torch::Tensor Refine(std::size_t level, const torch::Tensor& x);
   bool PacksFeatures() const { return options_.pack > 1 && options_.pack_at == PackAt::kFeatures; }
 

@@ -6,6 +6,7 @@
 
 #include "antigrasp/core/pieces.h"
 #include "antigrasp/models/cell_conv.h"
+#include "antigrasp/models/folded_conv.h"
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/libtorch.h"
 #include "antigrasp/models/winograd_conv.h"
@@ -64,11 +65,6 @@ std::vector<float> Panels(const at::Tensor& weight, bool of_outputs) {
     }
   });
   return panels;
-}
-
-bool TakesCellConv(const at::Tensor& x, const at::Tensor& weight, at::ScalarType compute) {
-  return compute == at::kFloat && HasCellConv() && x.device().is_cpu() &&
-         x.scalar_type() == at::kFloat && x.numel() > 0 && weight.size(0) % 8 == 0;
 }
 
 // What LibTorch's convolutions take. Tensor cores want the channels side by side.
@@ -132,9 +128,15 @@ at::Tensor ConvolveTransposed(const at::Tensor& values, const at::Tensor& weight
   return result;
 }
 
-// The gradient of sum(values * Convolve(cells, weight)) for the weight.
-at::Tensor WeightGradient(const at::Tensor& cells, const at::Tensor& values,
-                          const at::Tensor& weight, at::ScalarType compute) {
+}  // namespace
+
+bool TakesCellConv(const at::Tensor& x, const at::Tensor& weight, at::ScalarType compute) {
+  return compute == at::kFloat && HasCellConv() && x.device().is_cpu() &&
+         x.scalar_type() == at::kFloat && x.numel() > 0 && weight.size(0) % 8 == 0;
+}
+
+at::Tensor FoldedWeightGradient(const at::Tensor& cells, const at::Tensor& values,
+                                const at::Tensor& weight, at::ScalarType compute) {
   if (!TakesCellConv(cells, weight, compute)) {
     return UnfoldKernel(ConvGradient(values, cells, FoldKernel(weight), false, compute));
   }
@@ -160,6 +162,8 @@ at::Tensor WeightGradient(const at::Tensor& cells, const at::Tensor& values,
   return result;
 }
 
+namespace {
+
 at::ScalarType SavedType(const AutogradContext& ctx) {
   return static_cast<at::ScalarType>(ctx.saved_data.at("compute").toInt());
 }
@@ -176,7 +180,8 @@ struct DownConvFunction : Function<DownConvFunction> {
     const at::ScalarType compute = SavedType(*ctx);
     at::Tensor input, weight, bias;
     if (ctx->needs_input_grad(0)) input = ConvolveTransposed(grads[0], saved[1], compute);
-    if (ctx->needs_input_grad(1)) weight = WeightGradient(saved[0], grads[0], saved[1], compute);
+    if (ctx->needs_input_grad(1))
+      weight = FoldedWeightGradient(saved[0], grads[0], saved[1], compute);
     if (ctx->needs_input_grad(2)) bias = grads[0].sum(at::IntArrayRef({0, 2, 3, 4}));
     return {input, weight, bias, at::Tensor()};
   }
@@ -193,7 +198,7 @@ struct UpConvFunction : Function<UpConvFunction> {
     const variable_list saved = ctx->get_saved_variables();
     const at::ScalarType compute = SavedType(*ctx);
     return {Convolve(grads[0], saved[1], {}, compute),
-            WeightGradient(grads[0], saved[0], saved[1], compute), at::Tensor()};
+            FoldedWeightGradient(grads[0], saved[0], saved[1], compute), at::Tensor()};
   }
 };
 

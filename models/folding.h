@@ -29,6 +29,13 @@ torch::Tensor FoldLeaky(const torch::Tensor& grid, double leak);
 torch::Tensor DownConv(const torch::Tensor& folded, const torch::Tensor& weight,
                        const torch::Tensor& bias, at::ScalarType compute = at::kFloat);
 
+// DownConv(FoldLeaky(grid, leak), ...) and Unfold(UpConv(...)), with the same bits; where a few
+// samples fit the caches they pass through both before the next.
+torch::Tensor DownConvLeaky(const torch::Tensor& grid, double leak, const torch::Tensor& weight,
+                            const torch::Tensor& bias, at::ScalarType compute = at::kFloat);
+torch::Tensor UpConvUnfolded(const torch::Tensor& x, const torch::Tensor& weight,
+                             at::ScalarType compute = at::kFloat);
+
 // conv_transpose3d, stride 2, folded: weight [in, out, 4, 4, 4], no bias.
 // x [N, in, s, s, s] -> [N, 8 out, s + 1, s + 1, s + 1]. Unfolded it is the layer with padding 1;
 // the ring holds what a padding of 0 adds.

@@ -135,7 +135,7 @@ torch::Tensor GeneratorImpl::ForwardFolded(const torch::Tensor& z) {
   const at::ScalarType compute = ConvolutionType(options_);
   torch::Tensor x = Activate(0, project_(z).view({-1, up_weights_[0].size(0), 2, 2, 2}));
   for (std::size_t i = 0; i < up_weights_.size(); ++i) {  // to [N, c, r / 2, r / 2, r / 2]
-    x = Refine(i, Activate(i + 1, Unfold(UpConv(x, up_weights_[i], compute))));
+    x = Refine(i, Activate(i + 1, UpConvUnfolded(x, up_weights_[i], compute)));
   }
   x = AddNumber(UpConv(x, last_weight_, compute), last_bias_);  // [N, 8, h, h, h], h = r / 2 + 1
   return Tanh(BlurAndClearRing(x, options_.output_blur));

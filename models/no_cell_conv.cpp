@@ -22,6 +22,15 @@ void WinogradConv(const CellConvShape&, const float*, const float*, const float*
   Missing();
 }
 void WinogradConvTranspose(const CellConvShape&, const float*, const float*, float*) { Missing(); }
+bool SuitsSampleBySample(const CellConvShape&) { return false; }
+void WinogradConvOfFilled(const CellConvShape&, const std::function<void(std::int64_t)>&,
+                          const float*, const float*, const float*, float*) {
+  Missing();
+}
+void WinogradConvTransposeTaken(const CellConvShape&, const float*, const float*,
+                                const std::function<void(std::int64_t, const float*)>&) {
+  Missing();
+}
 void WinogradConvWeightGradient(const CellConvShape&, const float*, const float*, float*) {
   Missing();
 }

@@ -115,6 +115,49 @@ Cut CutOf(std::int64_t tiles, std::int64_t columns, Cut cut) {
   return cut;
 }
 
+// Outputs of `tiles` tiles from the first, channels [column, column + width).
+void FillTiles(const CellConvShape& s, const Panels& panels, std::int64_t first, std::int64_t tiles,
+               std::int64_t column, std::int64_t width, const float* cells, const float* bias,
+               float* outputs) {
+  Convolution convolution(s, panels, kDepth, width);
+  for (std::int64_t i = first; i < first + tiles; i += kTiles) {
+    const TileBlock block(s, i, std::min(kTiles, first + tiles - i));
+    convolution.FillOutputs<0>(block, column, width, cells, bias, outputs);
+    convolution.FillOutputs<1>(block, column, width, cells, bias, outputs);
+    convolution.FillOutputs<2>(block, column, width, cells, bias, outputs);
+  }
+}
+
+// Channels [column, column + width) of the cells of `tiles` tiles from the first, all of some
+// samples: tiles share cells, and come in an order that does not depend on the samples around.
+void FillCellsOfTiles(const CellConvShape& s, const Panels& panels, std::int64_t first,
+                      std::int64_t tiles, std::int64_t column, std::int64_t width,
+                      const float* outputs, float* cells) {
+  Convolution convolution(s, panels, s.out, kColumns);
+  for (std::int64_t i = first; i < first + tiles; i += kTiles) {
+    const TileBlock block(s, i, std::min(kTiles, first + tiles - i));
+    for (std::int64_t c = column; c < column + width; c += kColumns) {
+      const std::int64_t some = std::min(kColumns, column + width - c);
+      convolution.FillCells<0>(block, c, some, outputs, cells);
+      convolution.FillCells<1>(block, c, some, outputs, cells);
+      convolution.FillCells<2>(block, c, some, outputs, cells);
+    }
+  }
+}
+
+std::int64_t TilesOf(const CellConvShape& s) {
+  const std::int64_t t = (s.h - 1) / 2;
+  return t * t * t;
+}
+std::int64_t CellsOf(const CellConvShape& s) { return s.h * s.h * s.h; }
+
+// Samples whose tiles fill a block.
+std::int64_t GroupOf(const CellConvShape& s) {
+  return std::max<std::int64_t>(1, kTiles / TilesOf(s));
+}
+
+constexpr std::int64_t kGroupFloats = 1 << 18;  // half of a core's cache beside the panels
+
 }  // namespace
 }  // namespace winograd
 
@@ -122,19 +165,15 @@ void WinogradConv(const CellConvShape& s, const float* cells, const float* weigh
                   const float* bias, float* outputs) {
   using namespace winograd;
   const Panels panels = MakePanels(s, weight, true);
-  const std::int64_t t = (s.h - 1) / 2, tiles = s.count * t * t * t;
+  const std::int64_t tiles = s.count * TilesOf(s);
   const Cut cut = CutOf(tiles, s.out, {kTiles, s.out});
   const std::int64_t blocks = (tiles + cut.tiles - 1) / cut.tiles;
   const std::int64_t parts = (s.out + cut.columns - 1) / cut.columns;
   // An output's sum does not depend on the tiles of its block: the same bits for any threads.
   ForPieces(blocks * parts, [&](std::int64_t i) {
     const std::int64_t first = i / parts * cut.tiles, c = i % parts * cut.columns;
-    const std::int64_t width = std::min(cut.columns, s.out - c);
-    const TileBlock block(s, first, std::min(cut.tiles, tiles - first));
-    Convolution convolution(s, panels, kDepth, width);
-    convolution.FillOutputs<0>(block, c, width, cells, bias, outputs);
-    convolution.FillOutputs<1>(block, c, width, cells, bias, outputs);
-    convolution.FillOutputs<2>(block, c, width, cells, bias, outputs);
+    FillTiles(s, panels, first, std::min(cut.tiles, tiles - first), c,
+              std::min(cut.columns, s.out - c), cells, bias, outputs);
   });
 }
 
@@ -142,9 +181,7 @@ void WinogradConvTranspose(const CellConvShape& s, const float* outputs, const f
                            float* cells) {
   using namespace winograd;
   const Panels panels = MakePanels(s, weight, false);
-  const std::int64_t t = (s.h - 1) / 2, tiles = t * t * t, sample_cells = s.h * s.h * s.h;
-  // Tiles share cells: a sample's channels belong to one piece, and its tiles come in an order that
-  // does not depend on the samples around it.
+  const std::int64_t tiles = TilesOf(s);
   const Cut cut = CutOf(s.count * tiles, s.in, {std::max(kTiles, tiles), kColumns});
   const std::int64_t group = std::max<std::int64_t>(1, cut.tiles / tiles);
   const std::int64_t groups = (s.count + group - 1) / group;
@@ -152,16 +189,43 @@ void WinogradConvTranspose(const CellConvShape& s, const float* outputs, const f
   ForPieces(groups * parts, [&](std::int64_t i) {
     const std::int64_t sample = i / parts * group, next = std::min(s.count, sample + group);
     const std::int64_t c = i % parts * cut.columns, width = std::min(cut.columns, s.in - c);
-    for (std::int64_t cell = sample * sample_cells; cell < next * sample_cells; ++cell) {
+    for (std::int64_t cell = sample * CellsOf(s); cell < next * CellsOf(s); ++cell) {
       std::fill_n(cells + cell * s.in + c, width, 0.0F);
     }
-    Convolution convolution(s, panels, s.out, kColumns);
-    for (std::int64_t first = sample * tiles; first < next * tiles; first += kTiles) {
-      const TileBlock block(s, first, std::min(kTiles, next * tiles - first));
-      convolution.FillCells<0>(block, c, width, outputs, cells);
-      convolution.FillCells<1>(block, c, width, outputs, cells);
-      convolution.FillCells<2>(block, c, width, outputs, cells);
-    }
+    FillCellsOfTiles(s, panels, sample * tiles, (next - sample) * tiles, c, width, outputs, cells);
+  });
+}
+
+bool SuitsSampleBySample(const CellConvShape& s) {
+  using namespace winograd;
+  return SuitsWinograd(s) && GroupOf(s) * CellsOf(s) * s.in <= kGroupFloats &&
+         s.count >= 2 * GroupOf(s) * PieceThreads();
+}
+
+void WinogradConvOfFilled(const CellConvShape& s, const std::function<void(std::int64_t)>& fill,
+                          const float* cells, const float* weight, const float* bias,
+                          float* outputs) {
+  using namespace winograd;
+  const Panels panels = MakePanels(s, weight, true);
+  ForRanges(s.count, GroupOf(s), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) fill(i);
+    FillTiles(s, panels, begin * TilesOf(s), (end - begin) * TilesOf(s), 0, s.out, cells, bias,
+              outputs);
+  });
+}
+
+void WinogradConvTransposeTaken(const CellConvShape& s, const float* outputs, const float* weight,
+                                const std::function<void(std::int64_t, const float*)>& take) {
+  using namespace winograd;
+  const Panels panels = MakePanels(s, weight, false);
+  const std::int64_t g = s.h - 1, sample_size = CellsOf(s) * s.in;
+  ForRanges(s.count, GroupOf(s), [&](std::int64_t begin, std::int64_t end) {
+    const std::int64_t size = (end - begin) * sample_size;
+    const Floats cells = AllocateFloats(size);
+    std::fill_n(cells.get(), size, 0.0F);
+    FillCellsOfTiles(s, panels, 0, (end - begin) * TilesOf(s), 0, s.in,
+                     outputs + begin * g * g * g * s.out, cells.get());
+    for (std::int64_t i = begin; i < end; ++i) take(i, cells.get() + (i - begin) * sample_size);
   });
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "antigrasp/models/cell_conv.h"
 
 namespace antigrasp {
@@ -25,6 +27,19 @@ void WinogradConv(const CellConvShape& shape, const float* cells, const float* w
                   const float* bias, float* outputs);  // bias: may be null
 void WinogradConvTranspose(const CellConvShape& shape, const float* outputs, const float* weight,
                            float* cells);
+
+// The same with what is before or behind done to a few samples at a time, while they are in the
+// caches, on several threads: fill(sample) makes the cells of a sample that `cells` is to hold;
+// take(sample, cells) is given those of one, which lie nowhere else. For shapes of which a few
+// samples are small and many of a call.
+bool SuitsSampleBySample(const CellConvShape& shape);
+void WinogradConvOfFilled(const CellConvShape& shape, const std::function<void(std::int64_t)>& fill,
+                          const float* cells, const float* weight, const float* bias,
+                          float* outputs);
+void WinogradConvTransposeTaken(const CellConvShape& shape, const float* outputs,
+                                const float* weight,
+                                const std::function<void(std::int64_t, const float*)>& take);
+
 void WinogradConvWeightGradient(const CellConvShape& shape, const float* cells,
                                 const float* output_gradient, float* weight_gradient);
 

@@ -83,6 +83,42 @@ TEST(WinogradConv, GivesTheSameBitsWithAnyNumberOfThreads) {
   SetPieceThreads(threads_before);
 }
 
+// Of every sample in turn what goes through the whole batch otherwise.
+TEST(WinogradConv, SamplesThatPassFoldingAndConvolutionTogetherKeepTheirBits) {
+  if (!HasCellConv()) GTEST_SKIP() << "no AVX2: LibTorch's convolutions do the work";
+  const int threads_before = PieceThreads();
+  RngStream rng(3, "sample by sample");
+  const std::int64_t count = 35;  // 8 at a time, and 3
+  const torch::Tensor grid = NormalTensor({count, 16, 8, 8, 8}, 1.0, &rng).requires_grad_();
+  const torch::Tensor x = NormalTensor({count, 16, 4, 4, 4}, 1.0, &rng).requires_grad_();
+  const torch::Tensor weight = NormalTensor({16, 16, 4, 4, 4}, 1.0, &rng).requires_grad_();
+  const torch::Tensor bias = NormalTensor({16}, 1.0, &rng).requires_grad_();
+  const torch::Tensor down_weights = NormalTensor({count, 16, 4, 4, 4}, 1.0, &rng);
+  const torch::Tensor up_weights = NormalTensor({count, 16, 8, 8, 8}, 1.0, &rng);
+  const auto results = [&](const torch::Tensor& down, const torch::Tensor& up) {
+    std::vector<torch::Tensor> all = {down, up};
+    for (const auto& g : torch::autograd::grad({(down * down_weights).sum()}, {grid, weight, bias}))
+      all.push_back(g);
+    for (const auto& g : torch::autograd::grad({(up * up_weights).sum()}, {x, weight}))
+      all.push_back(g);
+    return all;
+  };
+  SetPieceThreads(1);
+  const auto expected =
+      results(DownConv(FoldLeaky(grid, 0.2), weight, bias), Unfold(UpConv(x, weight)));
+  for (const int threads : {1, 2}) {
+    SetPieceThreads(threads);
+    ASSERT_TRUE(SuitsSampleBySample({count, 5, 128, 16}));
+    const auto found = results(DownConvLeaky(grid, 0.2, weight, bias), UpConvUnfolded(x, weight));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_TRUE(torch::equal(found[i], expected[i])) << threads << " threads, result " << i;
+    }
+  }
+  EXPECT_FALSE(SuitsSampleBySample({15, 5, 128, 16}));    // too few for two threads
+  EXPECT_FALSE(SuitsSampleBySample({64, 3, 1024, 128}));  // a block of tiles fills no cache
+  SetPieceThreads(threads_before);
+}
+
 #ifdef __x86_64__  // elsewhere neither kernel is there
 
 // Whole rounds of rows and pairs of panels, and others.
