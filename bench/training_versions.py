@@ -1,7 +1,9 @@
-"""Steps of two builds of bench_training in turn in one run: bench/training_versions.py OLD NEW [WIDTH [ROUNDS [BUSY]]]. A row a number of threads and
-whether another program, the shell command BUSY, keeps a core busy meanwhile: seconds of a step of both on the wall and of the processor (medians over
-rounds), the median over rounds of their ratio, above 1 = NEW is faster, and how much faster NEW is on two threads than on one."""
+"""Steps of two builds of bench_training in turn in one run: bench/training_versions.py OLD NEW [WIDTH [ROUNDS [BUSY]]]. OLD and NEW are commands. A row a
+number of threads and whether another program, the shell command BUSY ("" = no such rows), keeps a core busy meanwhile: seconds of a step of both on the wall
+and of the processor (medians over rounds), the median over rounds of their ratio, above 1 = NEW is faster, and how much faster NEW is on two threads than on
+one."""
 import os
+import shlex
 import signal
 import statistics
 import subprocess
@@ -15,7 +17,7 @@ BUSY = sys.argv[5] if len(sys.argv) > 5 else "exec taskset -c 1 sh -c 'while :; 
 
 class Steps:
     def __init__(self, program, threads):
-        command = [program, "answer", WIDTH, "1", threads]
+        command = [*shlex.split(program), "answer", WIDTH, "1", threads]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         if self.process.stdout.readline() != "ready\n":
             sys.exit(f"{' '.join(command)}: not ready")
@@ -31,9 +33,10 @@ def busy_core():
 
 
 steps = {(which, threads): Steps(PROGRAMS[which], threads) for which in (0, 1) for threads in ("1", "2")}
-took = {(key, busy): [] for key in steps for busy in (False, True)}
+kinds = (False, True) if BUSY else (False,)
+took = {(key, busy): [] for key in steps for busy in kinds}
 for number in range(ROUNDS):
-    for busy in (False, True):
+    for busy in kinds:
         other = busy_core() if busy else None
         for key in list(steps)[:: 1 if number % 2 == 0 else -1]:
             took[key, busy].append(steps[key].seconds())
@@ -52,7 +55,7 @@ def middle_ratio(over, under):
 
 print(f"width {WIDTH}, {ROUNDS} rounds\n| threads | busy core | old, s | new, s | times as fast | old, processor s | new, processor s | new: of one thread |")
 print("| --- | --- | --- | --- | --- | --- | --- | --- |")
-for busy in (False, True):
+for busy in kinds:
     for threads in ("1", "2"):
         old, new = walls(0, threads, busy), walls(1, threads, busy)
         processor = [statistics.median(cpu for _, cpu in took[(which, threads), busy]) for which in (0, 1)]

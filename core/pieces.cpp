@@ -14,7 +14,7 @@ namespace antigrasp {
 namespace {
 
 // Longer than the serial work between most loops, much shorter than a scheduler's slice.
-constexpr std::chrono::microseconds kSpin{100};
+constexpr std::chrono::microseconds kSpin{50};
 constexpr int kLooksBetweenTimes = 64;
 
 inline void Pause() {
