@@ -23,9 +23,12 @@ class Steps:
             sys.exit(f"{' '.join(command)}: not ready")
 
     def seconds(self):
-        self.process.stdin.write("\n")
-        self.process.stdin.flush()
-        return tuple(map(float, self.process.stdout.readline().split()))
+        """Of the second step in a row: the first finds another program's data in the caches."""
+        for _ in range(2):
+            self.process.stdin.write("\n")
+            self.process.stdin.flush()
+            answer = self.process.stdout.readline()
+        return tuple(map(float, answer.split()))
 
 
 def busy_core():
