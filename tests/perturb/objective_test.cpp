@@ -175,6 +175,29 @@ TEST(AttackGrasps, ReachFallsWithTheDistanceFromTheCentreOfMassAndFacesAreOfThei
   EXPECT_NE(first(6, 0), first(5, 1));
 }
 
+// Half of the draws move the object out of the way.
+TEST(AttackGrasps, OfDrawsThatMissLeaveTheFacesOfTheOthers) {
+  const TriangleMesh box = shapes::Box({0.03, 0.04, 0.05});
+  MetricOptions metric;
+  metric.collision = Collision::kJaws;
+  std::vector<NoiseDraw> pool(2);
+  pool[1].object_translation = Vector3d(1.0, 1.0, 1.0);
+  ObjectiveOptions options;
+  options.grasps = 20;
+  const std::vector<Vector3d> normals = FaceNormals(box);
+  std::size_t executed = 0;
+  for (const AttackGrasp& grasp : SampleAttackGrasps(box, metric, options, pool, 5, 0)) {
+    executed += grasp.executed.size();
+    for (const Closing& closing : grasp.executed) {
+      EXPECT_EQ(closing.face, grasp.planned.face);
+      EXPECT_LT(closing.axis.dot(normals[static_cast<std::size_t>(closing.face[0])]), 0.0);
+      EXPECT_GT(closing.axis.dot(normals[static_cast<std::size_t>(closing.face[1])]), 0.0);
+    }
+  }
+  EXPECT_GT(executed, 150U);
+  EXPECT_LT(executed, 350U);
+}
+
 TEST(AttackGrasps, AreSampledBeyondTheFrictionConeByTheGivenTangent) {
   MetricOptions metric;
   metric.friction = 0.3;
