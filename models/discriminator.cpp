@@ -1,9 +1,8 @@
 #include "antigrasp/models/discriminator.h"
 
-#include <limits>
-
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/libtorch.h"
+#include "antigrasp/models/pack_deviation.h"
 #include "antigrasp/models/sdf_values.h"
 
 namespace antigrasp {
@@ -13,21 +12,6 @@ constexpr double kWeightSd = 0.02;
 constexpr double kLeak = 0.2;
 
 torch::Tensor LeakyRelu(torch::Tensor x) { return torch::leaky_relu_(x, kLeak); }
-
-torch::Tensor UpToDepth(const torch::Tensor& grids, const ModelOptions& options) {
-  if (options.depth == 0.0) return grids;
-  const torch::Tensor deepest = torch::tensor(options.depth, torch::kDouble);
-  return grids.clamp_max(NetworkValues(deepest, options).item<double>());
-}
-
-// [pack N, C, s, s, s] -> [pack N, 2 C, s, s, s]: every shape's features, then their deviation over
-// its pack.
-torch::Tensor WithDeviation(const torch::Tensor& x, std::int64_t pack) {
-  const torch::Tensor packs = x.view({-1, pack, x.size(1), x.size(2), x.size(3), x.size(4)});
-  const torch::Tensor deviation =
-      ((packs - packs.mean(1, true)).square().mean(1, true) + 1e-8).sqrt();
-  return torch::cat({x, deviation.expand_as(packs).reshape(x.sizes())}, 1);
-}
 
 }  // namespace
 
@@ -77,7 +61,7 @@ torch::Tensor DiscriminatorImpl::Refine(std::size_t level, const torch::Tensor& 
 }
 
 double DiscriminatorImpl::LargestSigma() {
-  if (!options_.spectral_norm) return std::numeric_limits<double>::quiet_NaN();
+  if (!options_.spectral_norm) return ShapeDiscriminator::LargestSigma();
   torch::NoGradGuard no_grad;
   std::vector<torch::Tensor> sigmas;
   for (auto* weights : {&weights_, &refine_}) {
@@ -117,7 +101,7 @@ torch::Tensor DiscriminatorImpl::ForwardFolded(const torch::Tensor& grids) {
       continue;
     }
     x = Refine(i - 1, x);
-    x = down(i, Fold(deviates ? WithDeviation(x, options_.pack) : x));  // of twice the channels
+    x = down(i, Fold(deviates ? WithPackDeviation(x, options_.pack) : x));  // of twice the channels
   }
   x = LeakyRelu(x);
   return torch::linear(x.flatten(1), weights_[levels + 1](), biases_[levels + 1]).squeeze(1);

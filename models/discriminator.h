@@ -5,8 +5,7 @@
 
 #include <vector>
 
-#include "antigrasp/core/rng.h"
-#include "antigrasp/models/model_options.h"
+#include "antigrasp/models/shape_discriminator.h"
 #include "antigrasp/models/spectral_norm.h"
 
 namespace antigrasp {
@@ -16,22 +15,15 @@ namespace antigrasp {
 // stride 2; four at 32^3) with LeakyReLU 0.2 down to 2^3 nodes and a linear head, every weight
 // spectrally normalised, no batch norm. A forward in training mode makes one power iteration per
 // layer.
-class DiscriminatorImpl : public torch::nn::Module {
+class DiscriminatorImpl : public ShapeDiscriminator {
  public:
   explicit DiscriminatorImpl(const ModelOptions& options);  // weights of a fixed stream
-  torch::Tensor forward(const torch::Tensor& sdf);
+  torch::Tensor forward(const torch::Tensor& sdf) override;
 
-  // The same for grids folded as folding.h says, [pack N, 8, h, h, h], h = r / 2 + 1.
-  torch::Tensor ForwardFolded(const torch::Tensor& grids);
-
-  void Initialize(RngStream* rng);  // fresh weights
-
-  // The power iterations of a forward in training mode, without one: for several forwards in
-  // evaluation mode, which then divide by the same.
-  void IterateSigma();
-
-  // The largest of the singular values by which the weights are divided; NaN without spectral norm.
-  double LargestSigma();
+  torch::Tensor ForwardFolded(const torch::Tensor& grids) override;
+  void Initialize(RngStream* rng) override;
+  void IterateSigma() override;
+  double LargestSigma() override;  // NaN without spectral norm
 
  private:
   torch::Tensor Refine(std::size_t level, const torch::Tensor& x);

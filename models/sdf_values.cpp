@@ -26,6 +26,12 @@ at::Tensor Distances(const at::Tensor& network_values, const ModelOptions& optio
       .div_(ValuePerDistance(options));
 }
 
+at::Tensor UpToDepth(const at::Tensor& network_values, const ModelOptions& options) {
+  if (options.depth == 0.0) return network_values;
+  const at::Tensor deepest = at::full({}, options.depth, at::kDouble);
+  return network_values.clamp_max(NetworkValues(deepest, options).item<double>());
+}
+
 double LargestDistance(const ModelOptions& options) {
   return (options.squash == Squash::kTanh ? std::atanh(kLargestTanh) : 1.0) /
          ValuePerDistance(options);

@@ -14,6 +14,9 @@ at::Tensor NetworkValues(const at::Tensor& distances, const ModelOptions& option
 // The inverse, within +-LargestDistance; the zero level never moves.
 at::Tensor Distances(const at::Tensor& network_values, const ModelOptions& options);
 
+// No distance inside larger than model.depth, unless that is 0: network values in and out.
+at::Tensor UpToDepth(const at::Tensor& network_values, const ModelOptions& options);
+
 // Of what Distances returns: the truncation, or 5 times that with tanh.
 double LargestDistance(const ModelOptions& options);
 

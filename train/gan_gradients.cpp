@@ -15,7 +15,7 @@
 namespace antigrasp {
 
 GanGradients::GanGradients(const ModelOptions& model, const GanOptions& options,
-                           ShapeGenerator* generator, const Discriminator& discriminator,
+                           ShapeGenerator* generator, ShapeDiscriminator* discriminator,
                            torch::Device device)
     : options_(options),
       latent_(model.latent),
@@ -61,7 +61,7 @@ LossAndGradients GanGradients::OfDiscriminator(GanPart* part) {
   discriminator_->eval();
   const torch::Tensor shapes = seen.detach().requires_grad_();
   const torch::Tensor score = discriminator_->ForwardFolded(shapes);
-  const Uphill uphill = StepUphill(shapes, score);
+  const Uphill uphill = StepUphill(shapes, score, discriminator_->SmallMove());
   const torch::Tensor loss =
       loss_of(score) + GradientPenalty(options_.gradient_penalty, score,
                                        discriminator_->ForwardFolded(uphill.shapes), uphill.step);

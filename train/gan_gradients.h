@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "antigrasp/core/rng.h"
-#include "antigrasp/models/discriminator.h"
+#include "antigrasp/models/shape_discriminator.h"
 #include "antigrasp/models/shape_generator.h"
 #include "antigrasp/train/flat_gradients.h"
 #include "antigrasp/train/gan_options.h"
@@ -20,12 +20,12 @@ struct GanPart {
   torch::Tensor fake{};  // n shapes, folded; with a graph where gradients are on
 };
 
-// The two losses of a part of a batch and their gradients. Keeps the networks, which its owner
-// changes.
+// The two losses of a part of a batch and their gradients. Refers to the networks, which its
+// owner keeps and changes.
 class GanGradients {
  public:
   GanGradients(const ModelOptions& model, const GanOptions& options, ShapeGenerator* generator,
-               const Discriminator& discriminator, torch::Device device);
+               ShapeDiscriminator* discriminator, torch::Device device);
 
   // Real shapes and z of a part: `shapes` [N, 1, r, r, r] network values.
   void Draw(const torch::Tensor& shapes, GanPart* part) const;
@@ -43,7 +43,7 @@ class GanGradients {
   std::int64_t latent_, size_;  // of a part
   torch::Device device_;
   ShapeGenerator* generator_;
-  Discriminator discriminator_;
+  ShapeDiscriminator* discriminator_;
   std::vector<torch::Tensor> generator_parameters_, discriminator_parameters_;
 };
 

@@ -5,9 +5,6 @@
 namespace antigrasp {
 namespace {
 
-// Little beside how far shapes are from each other (some 30), so that few units of the network
-// change sides; many enough that what those add averages out, and far more than rounding.
-constexpr double kLargestMove = 1.0;
 constexpr double kLeastGradient = 1e-12;
 
 }  // namespace
@@ -24,11 +21,11 @@ torch::Tensor GeneratorLoss(GanLoss loss, const torch::Tensor& real,
   return -generated.mean();
 }
 
-Uphill StepUphill(const torch::Tensor& shapes, const torch::Tensor& scores) {
+Uphill StepUphill(const torch::Tensor& shapes, const torch::Tensor& scores, double move) {
   const torch::Tensor gradient =
       torch::autograd::grad({scores.sum()}, {shapes}, {}, /*retain_graph=*/true)[0];
   const torch::Tensor largest = gradient.flatten(1).norm(2, 1).max().clamp_min(kLeastGradient);
-  const torch::Tensor step = kLargestMove / largest;
+  const torch::Tensor step = move / largest;
   return {shapes.detach() + step * gradient, step};
 }
 

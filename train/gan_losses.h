@@ -16,13 +16,13 @@ torch::Tensor GeneratorLoss(GanLoss loss, const torch::Tensor& real,
                             const torch::Tensor& generated);
 
 // Shapes a step up the gradients of their scores, and how long the step is: the largest moves by a
-// norm of 1 in network values.
+// norm of `move` in network values (ShapeDiscriminator::SmallMove).
 struct Uphill {
   torch::Tensor shapes;  // without a graph
   torch::Tensor step;    // scalar; the shapes have moved by it times their gradients
 };
 // `shapes` has requires_grad, `scores` is of them and keeps its graph.
-Uphill StepUphill(const torch::Tensor& shapes, const torch::Tensor& scores);
+Uphill StepUphill(const torch::Tensor& shapes, const torch::Tensor& scores, double move);
 
 // gamma / 2 times the mean over shapes of |gradient of the scores by the shape|^2: R1 and R2 in one
 // (Mescheder et al., ICML 2018). Its gradient needs no second derivatives: that of |g|^2 / 2 is the

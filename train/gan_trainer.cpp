@@ -63,7 +63,7 @@ struct GanTrainer::Impl {
   torch::Device device;
   std::shared_ptr<ShapeGenerator> generator;
   AveragedGenerator average;
-  Discriminator discriminator;
+  std::shared_ptr<ShapeDiscriminator> discriminator;
   Adam adam_generator, adam_discriminator;
   CapturedGradients gradients;
   LatentMixture latent;
@@ -81,12 +81,12 @@ GanTrainer::Impl::Impl(const ModelOptions& model_options, const GanOptions& gan_
       device(torch_device),
       generator(MakeGenerator(model_options)),
       average(model_options, base_seed, torch_device),
-      discriminator(model_options),
+      discriminator(MakeDiscriminator(model_options)),
       adam_generator((generator->to(device), generator->parameters()), options.beta1,
                      options.beta2),
       adam_discriminator((discriminator->to(device), discriminator->parameters()), options.beta1,
                          options.beta2),
-      gradients(GanGradients(model, options, generator.get(), discriminator, device), options,
+      gradients(GanGradients(model, options, generator.get(), discriminator.get(), device), options,
                 device),
       latent(StandardNormal(model.latent)) {
   RestartNetworks(0);

@@ -55,7 +55,7 @@ TEST(GanLosses, ThePenaltyIsTheMeanSquaredSlope) {
   };
   const torch::Tensor x = torch::tensor({{5.0, 2.0}, {1.0, -1.0}}, torch::kDouble).requires_grad_();
   const torch::Tensor scores = score(x);
-  const Uphill uphill = StepUphill(x, scores);
+  const Uphill uphill = StepUphill(x, scores, 1.0);
   const torch::Tensor penalty = GradientPenalty(3.0, scores, score(uphill.shapes), uphill.step);
   // Gradients (.75, -1) and (.75, .5): squares 1.5625 and .8125. The farther moves by 1, so by .8
   // of its gradient; over that way the second terms bend by -.25 * .8 * (1 + .25).
@@ -94,7 +94,7 @@ TEST(GanLosses, ThePenaltysGradientIsThatOfTheNetworksSlope) {
     const torch::AutoGradMode on(true);
     const torch::Tensor x = shapes.detach().requires_grad_();
     const torch::Tensor score = discriminator->ForwardFolded(x);
-    const Uphill uphill = StepUphill(x, score);
+    const Uphill uphill = StepUphill(x, score, 1.0);
     const torch::Tensor penalty =
         GradientPenalty(1.0, score, discriminator->ForwardFolded(uphill.shapes), uphill.step);
     gradients = torch::autograd::grad({penalty}, parameters, {}, false, false, true);
