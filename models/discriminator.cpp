@@ -76,13 +76,13 @@ void DiscriminatorImpl::IterateSigma() {
   }
 }
 
-torch::Tensor DiscriminatorImpl::forward(const torch::Tensor& sdf) {
-  return ForwardFolded(Fold(sdf));
-}
+torch::Tensor DiscriminatorImpl::forward(const torch::Tensor& sdf) { return Score(Judged(sdf)); }
 
-torch::Tensor DiscriminatorImpl::ForwardFolded(const torch::Tensor& grids) {
+torch::Tensor DiscriminatorImpl::Judged(const torch::Tensor& sdf) { return Fold(sdf); }
+
+torch::Tensor DiscriminatorImpl::Score(const torch::Tensor& judged) {
   const at::ScalarType compute = ConvolutionType(options_);
-  const torch::Tensor folded = EmphasizeEdges(UpToDepth(grids, options_), options_.edge_gain);
+  const torch::Tensor folded = EmphasizeEdges(UpToDepth(judged, options_), options_.edge_gain);
   const std::int64_t inputs = PacksFeatures() ? 1 : options_.pack;
   const std::int64_t h = folded.size(2);
   const auto packed = folded.view({-1, inputs, 8, h, h, h})

@@ -18,9 +18,12 @@ namespace antigrasp {
 class DiscriminatorImpl : public ShapeDiscriminator {
  public:
   explicit DiscriminatorImpl(const ModelOptions& options);  // weights of a fixed stream
-  torch::Tensor forward(const torch::Tensor& sdf) override;
+  torch::Tensor forward(const torch::Tensor& sdf);
 
-  torch::Tensor ForwardFolded(const torch::Tensor& grids) override;
+  // Grids folded as folding.h says, [pack N, 8, h, h, h], h = r / 2 + 1.
+  torch::Tensor Judged(const torch::Tensor& sdf) override;
+
+  torch::Tensor Score(const torch::Tensor& judged) override;
   void Initialize(RngStream* rng) override;
   void IterateSigma() override;
   double LargestSigma() override;  // NaN without spectral norm

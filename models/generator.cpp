@@ -131,7 +131,7 @@ torch::Tensor GeneratorImpl::Refine(std::size_t level, const torch::Tensor& x) {
   return (x + refine_norms_[level](y)).relu_();
 }
 
-torch::Tensor GeneratorImpl::ForwardFolded(const torch::Tensor& z) {
+torch::Tensor GeneratorImpl::ForwardJudged(const torch::Tensor& z) {
   const at::ScalarType compute = ConvolutionType(options_);
   torch::Tensor x = Activate(0, project_(z).view({-1, up_weights_[0].size(0), 2, 2, 2}));
   for (std::size_t i = 0; i < up_weights_.size(); ++i) {  // to [N, c, r / 2, r / 2, r / 2]
@@ -141,6 +141,6 @@ torch::Tensor GeneratorImpl::ForwardFolded(const torch::Tensor& z) {
   return Tanh(BlurAndClearRing(x, options_.output_blur));
 }
 
-torch::Tensor GeneratorImpl::forward(const torch::Tensor& z) { return Unfold(ForwardFolded(z)); }
+torch::Tensor GeneratorImpl::forward(const torch::Tensor& z) { return Unfold(ForwardJudged(z)); }
 
 }  // namespace antigrasp

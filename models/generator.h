@@ -20,7 +20,7 @@ class GeneratorImpl : public ShapeGenerator {
   torch::Tensor forward(const torch::Tensor& z) override;
 
   // The same grid folded as folding.h says: what the discriminator takes, and twice as fast.
-  torch::Tensor ForwardFolded(const torch::Tensor& z) override;  // [N, 8, h, h, h], h = r / 2 + 1
+  torch::Tensor ForwardJudged(const torch::Tensor& z) override;  // [N, 8, h, h, h], h = r / 2 + 1
 
   // Fresh weights. Transposed kernels start as trilinear interpolation of a random channel mix and
   // the output far outside, so that the first shapes are smooth and closed.

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "antigrasp/models/discriminator.h"
-#include "antigrasp/models/half_plane_discriminator.h"
+#include "antigrasp/models/number_discriminator.h"
 
 namespace antigrasp {
 
@@ -11,7 +11,7 @@ double ShapeDiscriminator::LargestSigma() { return std::numeric_limits<double>::
 
 std::shared_ptr<ShapeDiscriminator> MakeDiscriminator(const ModelOptions& options) {
   if (options.kind == ModelKind::kSolids && options.form == PartForm::kTurned) {
-    return std::make_shared<HalfPlaneDiscriminatorImpl>(options);
+    return std::make_shared<NumberDiscriminatorImpl>(options);
   }
   return std::make_shared<DiscriminatorImpl>(options);
 }

@@ -3,20 +3,23 @@
 #include <torch/nn/module.h>
 
 #include <memory>
+#include <vector>
 
 #include "antigrasp/core/rng.h"
 #include "antigrasp/models/model_options.h"
 
 namespace antigrasp {
 
-// What tells shapes of a set from generated ones: discriminator.h by whole grids,
-// half_plane_discriminator.h by half a plane of solids that are round about an axis.
+// What tells shapes of a set from generated ones: by their grids (discriminator.h), or turned
+// solids by the numbers of their outlines (number_discriminator.h).
 class ShapeDiscriminator : public torch::nn::Module {
  public:
-  virtual torch::Tensor forward(const torch::Tensor& sdf) = 0;  // [N, 1, r, r, r] -> scores
+  // What it judges of shapes [N, 1, r, r, r], network values, in the form in which the generator's
+  // ForwardJudged gives it of its own.
+  virtual torch::Tensor Judged(const torch::Tensor& sdf) = 0;
+  virtual torch::Tensor Score(const torch::Tensor& judged) = 0;  // [N], or a score a pack
 
-  // The same for grids folded as folding.h says: [N, 8, h, h, h], h = r / 2 + 1.
-  virtual torch::Tensor ForwardFolded(const torch::Tensor& grids) = 0;
+  virtual std::vector<torch::Tensor> Trained() { return parameters(); }  // with the generator
 
   virtual void Initialize(RngStream* rng) = 0;  // fresh weights
 
@@ -27,9 +30,9 @@ class ShapeDiscriminator : public torch::nn::Module {
   // The largest of the singular values by which weights are divided; NaN where none is.
   virtual double LargestSigma();
 
-  // How far a shape may move, norm in network values, for its score to change by its gradient:
-  // little beside how far shapes are from each other (some 30), so that few units change sides;
-  // many enough that what those add averages out, and far more than rounding.
+  // How far what it judges may move, by its norm, for its score to change by its gradient: little
+  // beside how far shapes are from each other (some 30 in network values), so that few units change
+  // sides; many enough that what those add averages out, and far more than rounding.
   virtual double SmallMove() const { return 1.0; }
 };
 

@@ -16,8 +16,9 @@ class ShapeGenerator : public torch::nn::Module {
  public:
   virtual torch::Tensor forward(const torch::Tensor& z) = 0;
 
-  // The same grids folded as folding.h says: what the discriminator takes.
-  virtual torch::Tensor ForwardFolded(const torch::Tensor& z) = 0;  // [N, 8, h, h, h]
+  // What the discriminator judges of them: the grids folded as folding.h says, [N, 8, h, h, h], or
+  // of turned solids the standardised numbers of their outlines.
+  virtual torch::Tensor ForwardJudged(const torch::Tensor& z) = 0;
 
   virtual void Initialize(RngStream* rng) = 0;  // fresh weights
 

@@ -147,13 +147,18 @@ SolidGeneratorImpl::SolidGeneratorImpl(const ModelOptions& options) : options_(o
     layers_.push_back(register_module("layer" + std::to_string(i + 1),
                                       torch::nn::Linear(sizes[i], sizes[i + 1])));
   }
+  if (IsTurned()) {
+    mean_ = register_buffer("mean", torch::zeros({PartNumbers()}));
+    deviation_ = register_buffer("deviation", torch::ones({PartNumbers()}));
+  }
   RngStream rng(0, "generator");
   Initialize(&rng);
 }
 
 void SolidGeneratorImpl::Initialize(RngStream* rng) {
   torch::NoGradGuard no_grad;
-  const bool turned = options_.form == PartForm::kTurned;
+  const bool turned = IsTurned();
+  if (turned) Standardise(torch::zeros_like(mean_), torch::ones_like(deviation_));
   const double last_gain = turned ? kTurnedGain : kLastGain;
   const double last_bias = turned ? kTurnedBias : kLastBias;
   for (torch::nn::Linear& layer : layers_) {
@@ -175,21 +180,34 @@ void SolidGeneratorImpl::Initialize(RngStream* rng) {
 
 std::int64_t SolidGeneratorImpl::PartNumbers() const { return NumbersOf(options_); }
 
-torch::Tensor SolidGeneratorImpl::Numbers(const torch::Tensor& z) {
+void SolidGeneratorImpl::Standardise(const torch::Tensor& mean, const torch::Tensor& deviation) {
+  AG_CHECK(IsTurned(), "a solid of parts draws its numbers as they are");
+  torch::NoGradGuard no_grad;
+  mean_.copy_(mean);
+  deviation_.copy_(deviation);
+}
+
+torch::Tensor SolidGeneratorImpl::Layers(const torch::Tensor& z) {
   torch::Tensor x = z.narrow(1, 0, options_.latent);
   for (torch::nn::Linear& layer : layers_) {
     x = layer.get() == layers_.front().get() ? layer(x) : layer(torch::relu(x));
   }
+  return x;
+}
+
+torch::Tensor SolidGeneratorImpl::Numbers(const torch::Tensor& z) {
+  torch::Tensor x = Layers(z);
+  if (IsTurned()) x = mean_ + deviation_ * x;
   return z.size(1) > options_.latent ? x + z.narrow(1, options_.latent, PartNumbers()) : x;
 }
 
 torch::Tensor SolidGeneratorImpl::Outlines(const torch::Tensor& z) {
-  AG_CHECK(options_.form == PartForm::kTurned, "a solid of parts has no outline");
+  AG_CHECK(IsTurned(), "a solid of parts has no outline");
   return antigrasp::Outlines(Numbers(z), options_.parts, Room(options_));
 }
 
 torch::Tensor SolidGeneratorImpl::Parts(const torch::Tensor& z) {
-  AG_CHECK(options_.form != PartForm::kTurned, "a turned solid has an outline");
+  AG_CHECK(!IsTurned(), "a turned solid has an outline");
   Draft draft = Drawn(Numbers(z).view({z.size(0), options_.parts, kRaws}), options_.form);
   PutIntoTheMiddle(Room(options_), &draft);
   const torch::Tensor slope = draft.Slope();
@@ -200,14 +218,21 @@ torch::Tensor SolidGeneratorImpl::Parts(const torch::Tensor& z) {
       2);
 }
 
+torch::Tensor SolidGeneratorImpl::OfNumbers(const torch::Tensor& numbers) {
+  AG_CHECK(IsTurned(), "numbers of an outline");
+  const torch::Tensor outlines = antigrasp::Outlines(numbers, options_.parts, Room(options_));
+  return NetworkValues(TurnedField(outlines, options_.resolution), options_);
+}
+
 torch::Tensor SolidGeneratorImpl::forward(const torch::Tensor& z) {
-  const torch::Tensor distances = options_.form == PartForm::kTurned
-                                      ? TurnedField(Outlines(z), options_.resolution)
-                                      : SolidField(Parts(z), options_.resolution);
-  const torch::Tensor values = NetworkValues(distances, options_);
+  const torch::Tensor values =
+      IsTurned() ? OfNumbers(Numbers(z))
+                 : NetworkValues(SolidField(Parts(z), options_.resolution), options_);
   return is_training() ? values : LargestPiece(values.cpu()).to(values.device());
 }
 
-torch::Tensor SolidGeneratorImpl::ForwardFolded(const torch::Tensor& z) { return Fold(forward(z)); }
+torch::Tensor SolidGeneratorImpl::ForwardJudged(const torch::Tensor& z) {
+  return IsTurned() ? Layers(z) : Fold(forward(z));
+}
 
 }  // namespace antigrasp

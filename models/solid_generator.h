@@ -19,7 +19,7 @@ class SolidGeneratorImpl : public ShapeGenerator {
  public:
   explicit SolidGeneratorImpl(const ModelOptions& options);  // weights of a fixed stream
   torch::Tensor forward(const torch::Tensor& z) override;
-  torch::Tensor ForwardFolded(const torch::Tensor& z) override;
+  torch::Tensor ForwardJudged(const torch::Tensor& z) override;
   std::int64_t PartNumbers() const override;
 
   // Fresh weights: parts of middle size about the centre, each z another union.
@@ -32,10 +32,20 @@ class SolidGeneratorImpl : public ShapeGenerator {
   // The same of turned solids: outlines as TurnedField takes them.
   torch::Tensor Outlines(const torch::Tensor& z);
 
+  // Network values [N, 1, r, r, r] of numbers [N, PartNumbers()], in evaluation too all of them.
+  torch::Tensor OfNumbers(const torch::Tensor& numbers);
+
+  // Of turned solids the layers draw standardised numbers: what these stand for, [PartNumbers()]
+  // each. It is saved with the weights.
+  void Standardise(const torch::Tensor& mean, const torch::Tensor& deviation);
+
  private:
-  torch::Tensor Numbers(const torch::Tensor& z);  // [N, PartNumbers()], those behind z added
+  torch::Tensor Layers(const torch::Tensor& z);   // [N, PartNumbers()]
+  torch::Tensor Numbers(const torch::Tensor& z);  // those that are meant, those behind z added
+  bool IsTurned() const { return options_.form == PartForm::kTurned; }
 
   ModelOptions options_;
+  torch::Tensor mean_, deviation_;  // buffers of turned solids
   std::vector<torch::nn::Linear> layers_;
 };
 TORCH_MODULE(SolidGenerator);

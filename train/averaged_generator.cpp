@@ -137,7 +137,7 @@ void AveragedGenerator::RefreshStatistics() {
   network_->RestartStatistics();
   network_->train();
   for (std::int64_t block = 0; block < kStatisticsBlocks; ++block) {
-    network_->ForwardFolded(LatentBlock(standard, seed_, "statistics", block).to(device_));
+    network_->ForwardJudged(LatentBlock(standard, seed_, "statistics", block).to(device_));
   }
 }
 

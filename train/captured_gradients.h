@@ -19,6 +19,7 @@ class CapturedGradients {
   CapturedGradients(const GanGradients& gradients, const GanOptions& options, torch::Device device);
   ~CapturedGradients();
 
+  const GanGradients& launched() const { return gradients_; }
   void Draw(const torch::Tensor& shapes, GanPart* part) const { gradients_.Draw(shapes, part); }
   LossAndGradients OfDiscriminator(GanPart* part);
   LossAndGradients OfGenerator(GanPart* part);

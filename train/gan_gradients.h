@@ -15,9 +15,9 @@ namespace antigrasp {
 // A batch, or a part of one: which random numbers, what was drawn with them, what was generated.
 struct GanPart {
   RngStream rng;         // of the augmentation once real and z are drawn
-  torch::Tensor real;    // shapes of the set, folded (folding.h)
+  torch::Tensor real;    // what is judged of shapes of the set
   torch::Tensor z;       // [n, latent]
-  torch::Tensor fake{};  // n shapes, folded; with a graph where gradients are on
+  torch::Tensor fake{};  // the same of n generated ones; with a graph where gradients are on
 };
 
 // The two losses of a part of a batch and their gradients. Refers to the networks, which its
@@ -27,7 +27,10 @@ class GanGradients {
   GanGradients(const ModelOptions& model, const GanOptions& options, ShapeGenerator* generator,
                ShapeDiscriminator* discriminator, torch::Device device);
 
-  // Real shapes and z of a part: `shapes` [N, 1, r, r, r] network values.
+  // As many of `shapes` [N, 1, r, r, r], network values, as a part has, each under a symmetry.
+  torch::Tensor RandomShapes(const torch::Tensor& shapes, RngStream* rng) const;
+
+  // What is real and z of a part.
   void Draw(const torch::Tensor& shapes, GanPart* part) const;
 
   // By the discriminator's parameters. Leaves in the part what was generated.

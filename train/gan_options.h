@@ -60,6 +60,9 @@ struct GanOptions {
   // Samples are drawn with few bends (models/few_bends.h): weight and power; weight 0 = as drawn.
   double fairing = 0.0;
   double fairing_power = 0.3;
+  // Of the updates of new networks of turned solids the first, in which an encoder is fitted to the
+  // set (outline_fit.h); the others learn the numbers that it gives.
+  double fit_share = 0.3;
   double ema = 0.0;  // decay of the averaged generator; 0 = 1 - 4 / iterations, in [0.9, 0.999]
 };
 

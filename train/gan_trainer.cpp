@@ -13,12 +13,14 @@
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/rng.h"
 #include "antigrasp/models/few_bends.h"
+#include "antigrasp/models/number_discriminator.h"
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/train/adam.h"
 #include "antigrasp/train/averaged_generator.h"
 #include "antigrasp/train/captured_gradients.h"
 #include "antigrasp/train/flat_gradients.h"
 #include "antigrasp/train/network_tensors.h"
+#include "antigrasp/train/outline_fit.h"
 #include "antigrasp/train/shape_model.h"
 
 namespace antigrasp {
@@ -40,6 +42,8 @@ struct GanTrainer::Impl {
        torch::Device torch_device);
 
   void RestartNetworks(int episode_index);
+  bool Fits() const;
+  StepReport FitStep(const torch::Tensor& shapes);
   std::vector<GanPart> OwnParts(int update) const;
   LossAndGradients OverParts(std::vector<GanPart>* parts, const std::vector<torch::Tensor>& like,
                              const std::function<LossAndGradients(GanPart*)>& of_part);
@@ -66,6 +70,7 @@ struct GanTrainer::Impl {
   std::shared_ptr<ShapeDiscriminator> discriminator;
   Adam adam_generator, adam_discriminator;
   CapturedGradients gradients;
+  std::unique_ptr<OutlineFit> fit;  // of turned solids
   LatentMixture latent;
   int episode = 0;
   std::int64_t iterations = 0, step = 0;
@@ -84,11 +89,14 @@ GanTrainer::Impl::Impl(const ModelOptions& model_options, const GanOptions& gan_
       discriminator(MakeDiscriminator(model_options)),
       adam_generator((generator->to(device), generator->parameters()), options.beta1,
                      options.beta2),
-      adam_discriminator((discriminator->to(device), discriminator->parameters()), options.beta1,
+      adam_discriminator((discriminator->to(device), discriminator->Trained()), options.beta1,
                          options.beta2),
       gradients(GanGradients(model, options, generator.get(), discriminator.get(), device), options,
                 device),
       latent(StandardNormal(model.latent)) {
+  if (auto* numbers = dynamic_cast<NumberDiscriminatorImpl*>(discriminator.get())) {
+    fit = std::make_unique<OutlineFit>(model, numbers->encoder());
+  }
   RestartNetworks(0);
 }
 
@@ -96,6 +104,28 @@ void GanTrainer::Impl::RestartNetworks(int episode_index) {
   RngStream rng(seed, "networks", static_cast<std::uint64_t>(episode_index));
   generator->Initialize(&rng);
   discriminator->Initialize(&rng);
+}
+
+// Updates of the encoder come first, where it is not fitted: the first of an episode.
+bool GanTrainer::Impl::Fits() const { return fit && !fit->encoder()->IsFitted(); }
+
+StepReport GanTrainer::Impl::FitStep(const torch::Tensor& shapes) {
+  const auto updates =
+      std::max<std::int64_t>(std::llround(options.fit_share * static_cast<double>(iterations)), 1);
+  GanPart part{RngStream(seed, "outlines", static_cast<std::uint64_t>(episode),
+                         static_cast<std::uint64_t>(step)),
+               {},
+               {}};
+  StepReport report;
+  auto& solids = dynamic_cast<SolidGeneratorImpl&>(*generator);
+  const double left = static_cast<double>(updates - step) / static_cast<double>(updates);
+  report.loss_discriminator =
+      fit->Update(gradients.launched().RandomShapes(shapes, &part.rng), &solids, left);
+  if (step + 1 < updates) return report;
+  fit->encoder()->FittedTo(shapes);
+  solids.Standardise(fit->encoder()->mean(), fit->encoder()->deviation());
+  CopyModule(*generator, *average.network());
+  return report;
 }
 
 // In one piece the random numbers are those of the step; parts have some each.
@@ -188,6 +218,7 @@ NamedTensors GanTrainer::Impl::State(const torch::Tensor& progress,
   AppendModule("average/", *average.network(), &state);
   AppendAdam("adam_generator/", adam_generator, &state);
   AppendAdam("adam_discriminator/", adam_discriminator, &state);
+  if (fit) AppendAdam("adam_encoder/", fit->adam(), &state);
   AppendMixture("latent/", mixture, &state);
   state.emplace_back("progress", progress);
   return state;
@@ -249,6 +280,7 @@ void GanTrainer::BeginEpisode(int episode, std::int64_t iterations, bool restart
   }
   t.adam_generator.Restart();
   t.adam_discriminator.Restart();
+  if (t.fit) t.fit->Restart();
   t.episode = episode;
   t.iterations = iterations;
   t.step = 0;
@@ -269,6 +301,11 @@ StepReport GanTrainer::Step(const torch::Tensor& shapes) {
   const bool in_parts = t.options.micro_batches > 0;
   t.generator->train();
   t.discriminator->train();
+  if (t.Fits()) {
+    const StepReport fitted = t.FitStep(shapes);
+    ++t.step;
+    return fitted;
+  }
   StepReport report;
   std::vector<GanPart> parts;
   if (!in_parts) {

@@ -74,7 +74,7 @@ TEST(Generator, FoldedOutputIsTheFoldedGrid) {
   Generator generator(TinyModel());
   generator->eval();
   const torch::Tensor z = Latent(2, 5);
-  EXPECT_TRUE(torch::equal(generator->ForwardFolded(z), Fold(generator(z))));
+  EXPECT_TRUE(torch::equal(generator->ForwardJudged(z), Fold(generator(z))));
 }
 
 TEST(Generator, ValuesLieWithinOneAndStartOutsideOnTheBorder) {

@@ -38,7 +38,7 @@ TEST(SolidGenerator, DrawsTheUnionOfItsPartsAsNetworkValues) {
   ASSERT_EQ(grids.sizes(), (std::vector<std::int64_t>{4, 1, 32, 32, 32}));
   EXPECT_TRUE(torch::equal(
       grids, NetworkValues(SolidField(generator->Parts(z), options.resolution), options)));
-  EXPECT_TRUE(torch::equal(generator->ForwardFolded(z), Fold(grids)));
+  EXPECT_TRUE(torch::equal(generator->ForwardJudged(z), Fold(grids)));
 }
 
 TEST(SolidGenerator, FirstShapesAreSolidAndOfManyForms) {

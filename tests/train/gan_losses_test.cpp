@@ -71,7 +71,7 @@ TEST(GanLosses, ThePenaltyIsTheMeanSquaredSlope) {
 // The mean of |gradient|^2 by autograd, at the weights as they are.
 double PenaltyOf(DiscriminatorImpl* discriminator, const torch::Tensor& shapes) {
   const torch::Tensor x = shapes.detach().requires_grad_();
-  const torch::Tensor score = discriminator->ForwardFolded(x);
+  const torch::Tensor score = discriminator->Score(x);
   const torch::Tensor g = torch::autograd::grad({score.sum()}, {x})[0];
   return 0.5 * g.square().sum().item<double>() / static_cast<double>(score.size(0));
 }
@@ -93,10 +93,10 @@ TEST(GanLosses, ThePenaltysGradientIsThatOfTheNetworksSlope) {
   {
     const torch::AutoGradMode on(true);
     const torch::Tensor x = shapes.detach().requires_grad_();
-    const torch::Tensor score = discriminator->ForwardFolded(x);
+    const torch::Tensor score = discriminator->Score(x);
     const Uphill uphill = StepUphill(x, score, 1.0);
     const torch::Tensor penalty =
-        GradientPenalty(1.0, score, discriminator->ForwardFolded(uphill.shapes), uphill.step);
+        GradientPenalty(1.0, score, discriminator->Score(uphill.shapes), uphill.step);
     gradients = torch::autograd::grad({penalty}, parameters, {}, false, false, true);
   }
   // Along the gradient itself, by the difference of penalties on both sides: its squared norm.

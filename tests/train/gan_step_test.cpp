@@ -239,11 +239,10 @@ TEST(GanStep, DrawsFromTheStreamOfItsSeedEpisodeAndStepAndShowsBothHalvesAlike) 
     for (int i = 0; i < 4; ++i) chosen.push_back(shapes[static_cast<std::int64_t>(rng.Below(7))]);
     const torch::Tensor real =
         RandomSymmetries(torch::stack(chosen), Symmetries::kAroundZAndUp, &rng);
-    const torch::Tensor generated = generator->ForwardFolded(NormalTensor({4, 3}, 1.0, &rng));
-    const torch::Tensor scores = discriminator->ForwardFolded(
-        Augment(torch::cat({Fold(real), generated}), options.augment, &rng));
-    const torch::Tensor again =
-        discriminator->ForwardFolded(Augment(generated, options.augment, &rng));
+    const torch::Tensor generated = generator->ForwardJudged(NormalTensor({4, 3}, 1.0, &rng));
+    const torch::Tensor scores =
+        discriminator->Score(Augment(torch::cat({Fold(real), generated}), options.augment, &rng));
+    const torch::Tensor again = discriminator->Score(Augment(generated, options.augment, &rng));
     const double loss = torch::relu(1 - scores.slice(0, 0, 4)).mean().item<double>() +
                         torch::relu(1 + scores.slice(0, 4, 8)).mean().item<double>();
     EXPECT_GT(scores.std().item<double>(), 0.05);
