@@ -12,7 +12,7 @@
 namespace antigrasp {
 namespace {
 
-ModelOptions Turned() {
+ModelOptions OfThreeFrusta() {
   ModelOptions options;
   options.kind = ModelKind::kSolids;
   options.form = PartForm::kTurned;
@@ -28,7 +28,7 @@ torch::Tensor Numbers(std::int64_t n) {
 
 TEST(NumberDiscriminator, EqualsPlainLayers) {
   torch::NoGradGuard no_grad;
-  NumberDiscriminator discriminator(Turned());
+  NumberDiscriminator discriminator(OfThreeFrusta());
   const auto weights = discriminator->named_parameters();
   torch::Tensor x = Numbers(3);
   for (const char layer : {'1', '2', '3', '4'}) {
@@ -40,7 +40,7 @@ TEST(NumberDiscriminator, EqualsPlainLayers) {
 }
 
 TEST(NumberDiscriminator, JudgesOfShapesWhatTheEncoderSaysStandardised) {
-  NumberDiscriminator discriminator(Turned());
+  NumberDiscriminator discriminator(OfThreeFrusta());
   RngStream rng(3, "grids");
   const torch::Tensor grids = NormalTensor({6, 1, 32, 32, 32}, 0.4, &rng).clamp_(-1, 1);
   OutlineEncoder encoder = discriminator->encoder();
@@ -55,7 +55,7 @@ TEST(NumberDiscriminator, JudgesOfShapesWhatTheEncoderSaysStandardised) {
 
 TEST(NumberDiscriminator, ShapesOfAPackMeetInTheFeatures) {
   torch::NoGradGuard no_grad;
-  ModelOptions options = Turned();
+  ModelOptions options = OfThreeFrusta();
   options.pack = 2;
   NumberDiscriminator discriminator(options);
   const torch::Tensor numbers = Numbers(4);
@@ -70,7 +70,7 @@ TEST(NumberDiscriminator, ShapesOfAPackMeetInTheFeatures) {
 }
 
 TEST(NumberDiscriminator, JudgesTurnedSolidsAndNoOthers) {
-  ModelOptions options = Turned();
+  ModelOptions options = OfThreeFrusta();
   EXPECT_NE(dynamic_cast<NumberDiscriminatorImpl*>(MakeDiscriminator(options).get()), nullptr);
   options.form = PartForm::kBoxes;
   EXPECT_NE(dynamic_cast<DiscriminatorImpl*>(MakeDiscriminator(options).get()), nullptr);
@@ -80,7 +80,7 @@ TEST(NumberDiscriminator, JudgesTurnedSolidsAndNoOthers) {
 }
 
 TEST(NumberDiscriminator, IsAsWideAsItIsTold) {
-  ModelOptions options = Turned();
+  ModelOptions options = OfThreeFrusta();
   const auto units = [&] { return NumberDiscriminator(options)->Trained()[0].size(0); };
   EXPECT_EQ(units(), 64);
   options.width_d = 5;

@@ -9,7 +9,7 @@
 namespace antigrasp {
 namespace {
 
-ModelOptions Turned(int resolution = 32) {
+ModelOptions TurnedAt(int resolution) {
   ModelOptions options;
   options.kind = ModelKind::kSolids;
   options.form = PartForm::kTurned;
@@ -33,7 +33,7 @@ OutlineEncoder Fresh(const ModelOptions& options) {
 TEST(OutlineEncoder, GivesTheNumbersOfAnOutlineAtEveryResolution) {
   torch::NoGradGuard no_grad;
   for (const int resolution : {16, 32, 64}) {
-    OutlineEncoder encoder = Fresh(Turned(resolution));
+    OutlineEncoder encoder = Fresh(TurnedAt(resolution));
     const torch::Tensor numbers = encoder(Grids(2, resolution));
     EXPECT_EQ(numbers.sizes(), (std::vector<std::int64_t>{2, OutlineNumbers(3)})) << resolution;
     EXPECT_GT((numbers[0] - numbers[1]).abs().max().item<double>(), 1e-4);
@@ -42,20 +42,20 @@ TEST(OutlineEncoder, GivesTheNumbersOfAnOutlineAtEveryResolution) {
 
 TEST(OutlineEncoder, SeesHalfThePlaneNextToTheAxisAndNothingElse) {
   torch::NoGradGuard no_grad;
-  OutlineEncoder encoder = Fresh(Turned());
+  OutlineEncoder encoder = Fresh(TurnedAt(32));
   const torch::Tensor grids = Grids(2);
   torch::Tensor elsewhere = Grids(4).narrow(0, 2, 2).clone();
   elsewhere.select(3, 15).narrow(3, 16, 16).copy_(grids.select(3, 15).narrow(3, 16, 16));
   EXPECT_TRUE(torch::equal(encoder(elsewhere), encoder(grids)));
   torch::Tensor touched = grids.clone();
-  touched.select(3, 15)[1][0][20][20].fill_(1.0);
+  touched.select(3, 15)[1][0][20][20].neg_();
   EXPECT_TRUE(torch::equal(encoder(touched)[0], encoder(grids)[0]));
   EXPECT_FALSE(torch::equal(encoder(touched)[1], encoder(grids)[1]));
 }
 
 TEST(OutlineEncoder, OfTheSetItIsFittedToStandardisedNumbersHaveMeanNoneAndDeviationOne) {
   torch::NoGradGuard no_grad;
-  OutlineEncoder encoder = Fresh(Turned());
+  OutlineEncoder encoder = Fresh(TurnedAt(32));
   EXPECT_FALSE(encoder->IsFitted());
   const torch::Tensor set = Grids(300);  // more than one block
   EXPECT_TRUE(torch::equal(encoder->Standardised(set), encoder(set)));
@@ -74,7 +74,7 @@ TEST(OutlineEncoder, OfTheSetItIsFittedToStandardisedNumbersHaveMeanNoneAndDevia
 
 TEST(OutlineEncoder, ANumberThatIsTheSameInAllOfASetIsNotDividedByNothing) {
   torch::NoGradGuard no_grad;
-  OutlineEncoder encoder = Fresh(Turned());
+  OutlineEncoder encoder = Fresh(TurnedAt(32));
   const torch::Tensor one = Grids(1);
   encoder->FittedTo(one.expand({5, 1, 32, 32, 32}));
   EXPECT_LT(encoder->Standardised(one).abs().max().item<double>(), 1e-2);

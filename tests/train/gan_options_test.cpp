@@ -17,7 +17,7 @@ TEST(GanOptions, EachNameSetsItsOwnField) {
         "gan.lr_decay_fraction=0.06", "gan.symmetries=\"around_z\"", "gan.augment=\"flips\"",
         "gan.ema=0.07", "gan.rest_below=0.08", "gan.fairing=0.09", "gan.fairing_power=0.1",
         "gan.micro_batches=3", "gan.loss=\"relativistic\"", "gan.gradient_penalty=0.11",
-        "gan.cuda_graphs=true"}) {
+        "gan.cuda_graphs=true", "gan.fit_share=0.12"}) {
     table.ApplyOverride(setting);
   }
   EXPECT_EQ(options.batch, 16);
@@ -38,7 +38,8 @@ TEST(GanOptions, EachNameSetsItsOwnField) {
   EXPECT_EQ(options.loss, GanLoss::kRelativistic);
   EXPECT_EQ(options.gradient_penalty, 0.11);
   EXPECT_TRUE(options.cuda_graphs);
-  EXPECT_EQ(table.options().size(), 18U);
+  EXPECT_EQ(options.fit_share, 0.12);
+  EXPECT_EQ(table.options().size(), 19U);
 }
 
 TEST(GanOptions, RefuseValuesOutOfRange) {
@@ -50,7 +51,7 @@ TEST(GanOptions, RefuseValuesOutOfRange) {
         "gan.learning_rate_d=-0.01", "gan.later_rate=1.01", "gan.beta1=1", "gan.beta2=1",
         "gan.lr_decay_fraction=1.01", "gan.symmetries=\"around_x\"", "gan.augment=\"all\"",
         "gan.ema=1", "gan.rest_below=2.01", "gan.fairing=-1", "gan.fairing_power=0",
-        "gan.micro_batches=-1", "gan.loss=\"wasserstein\"", "gan.gradient_penalty=-1"}) {
+        "gan.micro_batches=-1", "gan.loss=\"wasserstein\"", "gan.gradient_penalty=-1", "gan.fit_share=0.91"}) {
     EXPECT_THROW(table.ApplyOverride(setting), InputError) << setting;
   }
 }
