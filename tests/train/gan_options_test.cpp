@@ -51,7 +51,8 @@ TEST(GanOptions, RefuseValuesOutOfRange) {
         "gan.learning_rate_d=-0.01", "gan.later_rate=1.01", "gan.beta1=1", "gan.beta2=1",
         "gan.lr_decay_fraction=1.01", "gan.symmetries=\"around_x\"", "gan.augment=\"all\"",
         "gan.ema=1", "gan.rest_below=2.01", "gan.fairing=-1", "gan.fairing_power=0",
-        "gan.micro_batches=-1", "gan.loss=\"wasserstein\"", "gan.gradient_penalty=-1", "gan.fit_share=0.91"}) {
+        "gan.micro_batches=-1", "gan.loss=\"wasserstein\"", "gan.gradient_penalty=-1",
+        "gan.fit_share=0.91"}) {
     EXPECT_THROW(table.ApplyOverride(setting), InputError) << setting;
   }
 }
