@@ -6,9 +6,12 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <thread>
 #include <vector>
+
+#include "antigrasp/core/check.h"
 
 namespace antigrasp {
 namespace {
@@ -107,6 +110,7 @@ class Pool {
   void GiveBack() { taken_.clear(std::memory_order_release); }
 
   void Run(std::int64_t count, const std::function<void(std::int64_t)>& body) {
+    AG_CHECK(count <= std::numeric_limits<std::uint32_t>::max(), "pieces are numbered in 32 bits");
     const std::int64_t threads = wanted_;
     if (std::ssize(shares_) != threads) shares_ = std::vector<Share>(threads);
     for (; started_ < shares_.size(); ++started_) {

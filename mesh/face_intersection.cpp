@@ -55,6 +55,7 @@ bool OneSide(const FaceCorners& f, const FaceCorners& g, std::size_t begin) {
   for (std::size_t i = begin; i < 3; ++i) {
     const Vector3d w = g.at[i] - f.at[0];
     const double size = std::max(flat, w.cwiseAbs().maxCoeff());
+    if (!(size > 1e-90)) return false;  // products near the least numbers lose digits
     const double height = normal.dot(w), error = 1e-14 * size * size * size;
     if (height > error) ++above;
     if (height < -error) ++below;

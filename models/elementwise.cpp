@@ -66,7 +66,8 @@ struct DivideBySigmaFunction : Function<DivideBySigmaFunction> {
     const variable_list saved = ctx->get_saved_variables();
     const at::Tensor &weight = saved[0], &u = saved[1], &v = saved[2], &sigma = saved[3];
     const at::Tensor slope = grads[0].contiguous();
-    at::Tensor result = at::empty_like(weight), of_sigma = at::empty_like(weight);
+    at::Tensor result = at::empty_like(weight, at::MemoryFormat::Contiguous);
+    at::Tensor of_sigma = at::empty_like(result);
     OnSlices<4>({result, of_sigma, slope, weight}, [&](auto s) {
       at::div_out(s[0], s[2], sigma);
       at::mul_out(s[1], s[2].neg(), s[3].div(sigma).div_(sigma));

@@ -19,12 +19,15 @@ void Bind(OptionTable* table, ModelOptions* options) {
              "channels of the generator's last hidden layer (16^3); 8 for two cores, 64 for a GPU");
   table->Add("model.latent", &options->latent, 1, 4096, "length of the noise vector z");
   table->Add("model.resolution", &options->resolution, 16, 128, "nodes along one side of the grid");
-  table->Add("model.spectral_norm", &options->spectral_norm,
-             "divide the discriminator's weights by their largest singular value");
+  table->Add(
+      "model.spectral_norm", &options->spectral_norm,
+      "divide the discriminator's weights by their largest singular value (not if form = turned)");
   table->Add("model.pack", &options->pack, 1, 64,
              "shapes that the discriminator judges together (PacGAN); divides gan.batch");
-  table->Add("model.pack_at", &options->pack_at,
-             "where they meet: channels of the first layer, or the deviation of features at 4^3");
+  table->Add(
+      "model.pack_at", &options->pack_at,
+      "where they meet: channels of the first layer, or the deviation of features at 4^3 (turned "
+      "solids: of features always)");
   table->Add("model.width_d", &options->width_d, 0, 256,
              "width of the discriminator; 0 = model.width");
   table->Add(

@@ -15,7 +15,8 @@ namespace antigrasp {
 // so with the codes of an autoencoder (Achlioptas et al., ICML 2018); here the decoder is geometry,
 // not learnt. Standardised numbers [N, n] -> scores [N]: four linear layers, LeakyReLU 0.2 between;
 // shapes of a pack meet in the features of the second, wherever model.pack_at has them meet.
-// model.width_d (or width) says how wide; spectral norm, edge_gain and depth say nothing here.
+// model.width_d (or width) says how wide; spectral norm says nothing here, edge_gain and depth say
+// what the fit of the encoder sees (train/outline_fit.h).
 class NumberDiscriminatorImpl : public ShapeDiscriminator {
  public:
   explicit NumberDiscriminatorImpl(const ModelOptions& options);  // weights of a fixed stream

@@ -25,8 +25,8 @@ constexpr std::int64_t kRaws = 19;
 
 constexpr int kUnitsPerWidth = 32;
 constexpr double kLastGain = 0.7, kLastBias = 0.5;  // deviations of what the last layer begins with
-// Of turned solids: each z another one, about a cylinder. Kinds of bottles that no first shape is
-// near are learnt late or never.
+// Of turned solids: each z another one, about the mean of the set. Kinds of bottles that no first
+// is near are learnt late or never.
 constexpr double kTurnedGain = 1.2, kTurnedBias = 0.2;
 
 // In units of the cube's side. A part is never thinner than two cells of 32^3: one that is comes

@@ -15,12 +15,12 @@ void AddIfKnown(const std::string& label, const std::string& text,
   if (!text.empty()) lines->emplace_back(label, text);
 }
 
-// "1 thread", "2 threads, 1 of LibTorch".
+// "1 thread", "2 threads, 1 of training".
 std::string ThreadsText(const Provenance& p) {
   const std::string text = std::to_string(p.threads) + (p.threads == 1 ? " thread" : " threads");
   return p.torch_threads == p.threads
              ? text
-             : text + ", " + std::to_string(p.torch_threads) + " of LibTorch";
+             : text + ", " + std::to_string(p.torch_threads) + " of training";
 }
 
 void AddProvenance(const std::optional<Provenance>& provenance, Report* report) {

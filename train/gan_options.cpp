@@ -36,10 +36,9 @@ void Bind(OptionTable* table, GanOptions* options) {
       "samples get few bends in place of many, flat faces and creases: how much; 0 = as drawn");
   table->Add("gan.fairing_power", &options->fairing_power, 0.01, 1,
              "of a bend in that: 1 rounds creases off, small ones make few");
-  table->Add(
-      "gan.fit_share", &options->fit_share, 0, 0.9,
-      "of the updates of new networks of turned solids the first, in which outlines are fitted "
-      "to the set");
+  table->Add("gan.fit_share", &options->fit_share, 0, 0.6,
+             "of the updates of new networks of turned solids the first, at least one, in which "
+             "outlines are fitted to the set; of other networks none");
   table->Add("gan.ema", &options->ema, 0, 0.999999,
              "decay per step of the averaged generator; 0 = 1 - 4 / iterations, in [0.9, 0.999]");
 }

@@ -112,15 +112,28 @@ bool GanTrainer::Impl::Fits() const { return fit && !fit->encoder()->IsFitted();
 StepReport GanTrainer::Impl::FitStep(const torch::Tensor& shapes) {
   const auto updates =
       std::max<std::int64_t>(std::llround(options.fit_share * static_cast<double>(iterations)), 1);
-  GanPart part{RngStream(seed, "outlines", static_cast<std::uint64_t>(episode),
-                         static_cast<std::uint64_t>(step)),
-               {},
-               {}};
-  StepReport report;
   auto& solids = dynamic_cast<SolidGeneratorImpl&>(*generator);
+  const auto of_part = [&](GanPart* part) {
+    return fit->Gradients(gradients.launched().RandomShapes(shapes, &part->rng), &solids);
+  };
+  const bool in_parts = options.micro_batches > 0;
+  std::vector<GanPart> parts;
+  if (in_parts) {
+    parts = OwnParts(0);
+  } else {
+    parts.push_back({RngStream(seed, "outlines", static_cast<std::uint64_t>(episode),
+                               static_cast<std::uint64_t>(step)),
+                     {},
+                     {}});
+  }
+  const LossAndGradients found =
+      in_parts ? OverParts(&parts, fit->adam().parameters(), of_part) : of_part(&parts.front());
+  StepReport report;
+  std::tie(report.loss_discriminator, report.gradient_discriminator) =
+      FiniteLossAndNorm(found.loss, found.gradients);
+  report.loss_discriminator = std::sqrt(report.loss_discriminator);
   const double left = static_cast<double>(updates - step) / static_cast<double>(updates);
-  report.loss_discriminator =
-      fit->Update(gradients.launched().RandomShapes(shapes, &part.rng), &solids, left);
+  report.rate_discriminator = fit->Take(found.gradients, left);
   if (step + 1 < updates) return report;
   fit->encoder()->FittedTo(shapes);
   solids.Standardise(fit->encoder()->mean(), fit->encoder()->deviation());
@@ -286,6 +299,7 @@ void GanTrainer::BeginEpisode(int episode, std::int64_t iterations, bool restart
   t.step = 0;
   t.latent = StandardNormal(t.model.latent);
   t.average.Follow(*t.generator, /*decay=*/0.0);
+  if (t.fit) CopyModule(*t.generator, *t.average.network());  // what its numbers stand for, too
 }
 
 void GanTrainer::BeginFixedEpisode(int episode, const LatentMixture& latent) {

@@ -27,7 +27,7 @@ struct StepReport {
 
 // The networks, their average, their optimisers and the step count: all that training changes.
 // Random numbers of step t depend on (seed, episode, t) only, so there is no generator state.
-// Same seed, same bits, with any number of threads (ThreadsOfLibTorch).
+// Same seed, same bits, with any number of threads where ThreadsOfLibTorch gives LibTorch one.
 class GanTrainer {
  public:
   GanTrainer(const ModelOptions& model, const GanOptions& options, std::uint64_t seed,
@@ -73,8 +73,8 @@ class GanTrainer {
   const LatentMixture& latent() const;
 
   // All tensors by name, flat: generator/..., discriminator/..., average/... (parameters and
-  // buffers), adam_generator/first/<i>, second/<i>, steps, adam_discriminator/..., latent/... and
-  // progress (int64: episode, iterations, step); they share storage with the trainer. Going on
+  // buffers), adam_generator/first/<i>, second/<i>, steps, adam_discriminator/..., adam_encoder/...
+  // of turned solids, latent/..., progress (int64: episode, iterations, step); shared. Going on
   // after Load equals going on without, bit for bit. Load throws InputError naming `origin` and
   // changes nothing when a tensor is missing or does not fit.
   NamedTensors State() const;

@@ -3,10 +3,7 @@
 #include <torch/autograd.h>
 
 #include <algorithm>
-#include <cmath>
-#include <string>
 
-#include "antigrasp/core/error.h"
 #include "antigrasp/models/folding.h"
 #include "antigrasp/models/sdf_values.h"
 
@@ -21,7 +18,7 @@ constexpr double kBeta1 = 0.9, kBeta2 = 0.99;
 OutlineFit::OutlineFit(const ModelOptions& model, const OutlineEncoder& encoder)
     : model_(model), encoder_(encoder), adam_(encoder->parameters(), kBeta1, kBeta2) {}
 
-double OutlineFit::Update(const torch::Tensor& batch, SolidGeneratorImpl* generator, double left) {
+LossAndGradients OutlineFit::Gradients(const torch::Tensor& batch, SolidGeneratorImpl* generator) {
   const torch::AutoGradMode gradients(true);
   const auto seen = [&](const torch::Tensor& sdf) {  // as discriminators of grids see them
     return EmphasizeEdges(Fold(UpToDepth(sdf, model_)), model_.edge_gain);
@@ -31,13 +28,13 @@ double OutlineFit::Update(const torch::Tensor& batch, SolidGeneratorImpl* genera
   const auto shapes = static_cast<double>(batch.size(0));
   // A half plane's nodes stand for 2 r of the grid's each.
   const torch::Tensor loss = difference.square().sum() / (2.0 * model_.resolution * shapes);
-  const double value = loss.item<double>();
-  if (!std::isfinite(value)) {
-    throw RuntimeFailure("training diverged: outlines cannot be fitted to the set");
-  }
-  adam_.Step(torch::autograd::grad({loss}, adam_.parameters()),
-             kRate * std::min(1.0, left / kFalls));
-  return std::sqrt(value);
+  return {loss, torch::autograd::grad({loss}, adam_.parameters())};
+}
+
+double OutlineFit::Take(const std::vector<torch::Tensor>& gradients, double left) {
+  const double rate = kRate * std::min(1.0, left / kFalls);
+  adam_.Step(gradients, rate);
+  return rate;
 }
 
 }  // namespace antigrasp

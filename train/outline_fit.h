@@ -2,12 +2,12 @@
 
 #include <torch/types.h>
 
-#include <cstdint>
+#include <vector>
 
-#include "antigrasp/core/rng.h"
 #include "antigrasp/models/outline_encoder.h"
 #include "antigrasp/models/solid_generator.h"
 #include "antigrasp/train/adam.h"
+#include "antigrasp/train/flat_gradients.h"
 
 namespace antigrasp {
 
@@ -19,10 +19,12 @@ class OutlineFit {
  public:
   OutlineFit(const ModelOptions& model, const OutlineEncoder& encoder);
 
-  // One update with `batch` [N, 1, r, r, r], network values on the encoder's device, drawn by
-  // `generator`; `left` in (0, 1] is the share of the fit that is still to come. -> root of the
-  // mean over shapes of the squared differences of a half plane's nodes.
-  double Update(const torch::Tensor& batch, SolidGeneratorImpl* generator, double left);
+  // Of `batch` [N, 1, r, r, r], network values on the encoder's device, drawn by `generator`: the
+  // mean over shapes of the squared differences that a half plane's nodes have, and its gradients.
+  LossAndGradients Gradients(const torch::Tensor& batch, SolidGeneratorImpl* generator);
+
+  // An update; `left` in (0, 1] is the share of the fit that is still to come. -> its rate.
+  double Take(const std::vector<torch::Tensor>& gradients, double left);
 
   void Restart() { adam_.Restart(); }
   const Adam& adam() const { return adam_; }

@@ -23,8 +23,8 @@ void Bind(OptionTable* table, Provenance* p) {
   table->Add("provenance.libtorch", &p->libtorch, {}, "version of LibTorch");
   table->Add("provenance.device", &p->device, {}, "of the networks");
   table->Add("provenance.cpu", &p->cpu, {}, "of the machine the run was started on");
-  table->Add("provenance.threads", &p->threads, 0, 1e6, "of everything but LibTorch");
-  table->Add("provenance.torch_threads", &p->torch_threads, 0, 1e6, "of LibTorch");
+  table->Add("provenance.threads", &p->threads, 0, 1e6, "of everything but training and sampling");
+  table->Add("provenance.torch_threads", &p->torch_threads, 0, 1e6, "of training and sampling");
   table->Add("provenance.started", &p->started, {}, "time of day");
   table->Add("provenance.finished", &p->finished, {}, "time of day; empty: not yet");
   table->Add("provenance.seconds", &p->seconds, 0, 1e12, "of work, over all resumptions");

@@ -17,7 +17,7 @@ struct Provenance {
   std::string libtorch;         // "1.13.0"
   std::string device;           // cpu, cuda, cuda:1
   std::string cpu;              // "AMD EPYC 7B13", or "" when the system does not say
-  int threads = 0;              // of everything but LibTorch
+  int threads = 0;              // of everything but training and sampling
   int torch_threads = 0;
   std::string started;   // "2026-11-25 22:10:03 UTC"
   std::string finished;  // the same; "" until the run is

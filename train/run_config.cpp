@@ -53,8 +53,10 @@ void Bind(OptionTable* table, CemOptions* o) {
 void Bind(OptionTable* table, RunConfig* c) {
   table->Add("run.seed", &c->seed, "seed of every random stream");
   table->Add("run.threads", &c->threads, 0, 1024, "threads; 0 = all");
-  table->Add("run.torch_threads", &c->torch_threads, 0, 1024,
-             "threads of training; 0 = run.threads");
+  table->Add(
+      "run.torch_threads", &c->torch_threads, 0, 1024,
+      "threads of training; 0 = run.threads; the same bytes for any number, but with residual "
+      "blocks, bfloat16 and widths that 8 does not divide for the same number");
   table->Add("run.device", &c->device, {}, "device of the networks: cpu, cuda, cuda:1");
   table->Add("run.stl_count", &c->stl_count, 0, 10000, "least graspable objects exported as STL");
   table->Add("run.stl_size_mm", &c->stl_size_mm, 1, 10000, "their largest extent, mm");
@@ -98,6 +100,23 @@ RunConfig NetworksFromToml(const std::string& toml, const std::string& origin) {
   return config;
 }
 
+namespace {
+
+// What is judged of turned solids are numbers of outlines, which have no mirror and are never
+// upside down.
+void CheckTurned(const GanOptions& gan, const std::string& origin) {
+  if (gan.augment != Augmentation::kNone) {
+    throw InputError("gan.augment = " + ChoiceName(gan.augment) + " with model.form = turned",
+                     origin, "none");
+  }
+  if (gan.symmetries == Symmetries::kAroundZAndUp) {
+    throw InputError("gan.symmetries = " + ChoiceName(gan.symmetries) + " with model.form = turned",
+                     origin, "none or around_z");
+  }
+}
+
+}  // namespace
+
 void Validate(const RunConfig& config, const std::string& origin) {
   CheckResolution(config.model, origin);
   if (config.fine_tune && config.start.empty()) {
@@ -122,6 +141,9 @@ void Validate(const RunConfig& config, const std::string& origin) {
   if (config.cem.refine_steps > 0 && latent && !(config.cem.part_step > 0.0)) {
     throw InputError("cem.refine_steps with cem.mode = latent", origin,
                      "cem.mode = gan, or cem.part_step > 0: in latent mode parts are refined");
+  }
+  if (config.model.kind == ModelKind::kSolids && config.model.form == PartForm::kTurned) {
+    CheckTurned(config.gan, origin);
   }
   if (config.gan.batch % config.model.pack != 0) {
     throw InputError("model.pack = " + std::to_string(config.model.pack), origin,

@@ -90,7 +90,7 @@ inline bool RefinesParts(const CemOptions& cem) {
 // Everything a run depends on. Saved resolved as RUN/config.toml and inside every checkpoint.
 struct RunConfig {
   std::uint64_t seed = 1;
-  int threads = 0;             // of everything but LibTorch; 0 = all; no result depends on it
+  int threads = 0;             // of all else; 0 = all; no result depends on it
   int torch_threads = 0;       // of training and sampling; 0 = threads
   std::string device = "cpu";  // cpu, cuda, cuda:1
   std::string start;  // networks to begin with: checkpoint or name of pretrained ones; no episode 0

@@ -15,8 +15,9 @@ namespace antigrasp {
 namespace {
 
 const std::vector<std::string> kNames = {
-    "bottles-adversarial", "bottles-prior",      "cylinders-adversarial", "cylinders-prior",
-    "cylinders-solids",    "prisms-adversarial", "prisms-prior",          "prisms-solids"};
+    "bottles-adversarial",   "bottles-prior",   "bottles-solids",
+    "cylinders-adversarial", "cylinders-prior", "cylinders-solids",
+    "prisms-adversarial",    "prisms-prior",    "prisms-solids"};
 
 TEST(Pretrained, NamesAreThoseOfTheFilesInOrder) { EXPECT_EQ(PretrainedNames(), kNames); }
 

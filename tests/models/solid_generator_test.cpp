@@ -217,6 +217,21 @@ TEST(SolidGenerator, TurnedSolidsAreTheInsidesOfTheirOutlines) {
   EXPECT_THROW(SolidGenerator(Solids())->Outlines(z), std::logic_error);
 }
 
+TEST(SolidGenerator, TurnedSolidsAreWhatTheirStandardisedNumbersStandFor) {
+  torch::NoGradGuard no_grad;
+  SolidGenerator generator(Turned());
+  const std::int64_t n = generator->PartNumbers();
+  const torch::Tensor z = Noise(4, 1.0), drawn = generator->ForwardJudged(z);
+  const torch::Tensor mean = torch::linspace(-0.5, 0.4, n),
+                      deviation = torch::linspace(0.2, 0.9, n);
+  generator->Standardise(mean, deviation);
+  EXPECT_TRUE(torch::equal(generator->ForwardJudged(z), drawn));
+  EXPECT_TRUE(torch::equal(generator(z), generator->OfNumbers(mean + deviation * drawn)));
+  RngStream rng(3, "again");
+  generator->Initialize(&rng);  // forgets them
+  EXPECT_TRUE(torch::equal(generator(z), generator->OfNumbers(generator->ForwardJudged(z))));
+}
+
 TEST(SolidGenerator, TurnedSolidsAreInTheMiddleAndOfManyForms) {
   ModelOptions options = Turned();
   options.width = 8;

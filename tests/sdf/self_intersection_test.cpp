@@ -157,11 +157,19 @@ TEST(PlainStars, GoRoundOnce) {
 TEST(SelfIntersection, HoldsForCoordinatesOfAnySize) {
   TriangleMesh crossing =
       shapes::Joined(shapes::Cube(), Transformed(shapes::Cube(), 1.0, {0.5, 0.25, 0.75}));
-  for (const double scale : {1e-300, 1e-160, 1e-100, 1e-30, 1.0, 1e30, 1e100, 1e150, 1e300}) {
+  for (const double scale :
+       {1e-300, 1e-160, 1e-105, 1e-100, 1e-30, 1.0, 1e30, 1e100, 1e150, 1e300}) {
     EXPECT_TRUE(SelfIntersects(Transformed(crossing, scale, Vector3d::Zero()))) << scale;
     EXPECT_FALSE(
         SelfIntersects(Transformed(shapes::Torus(1.0, 0.3, 16, 8), scale, Vector3d::Zero())))
         << scale;
+  }
+  // A face whose last corner is a millionth below the other's plane.
+  TriangleMesh nearly;
+  nearly.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1e-6}, {2, 1, 1e-6}, {1, 2, -1e-6}};
+  nearly.faces = {{0, 1, 2}, {3, 4, 5}};
+  for (const double scale : {1e-103, 1e-104, 1e-105, 1e-106, 1e-107, 1.0}) {
+    EXPECT_TRUE(SelfIntersects(Transformed(nearly, scale, Vector3d::Zero()))) << scale;
   }
 }
 

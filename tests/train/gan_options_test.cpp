@@ -52,7 +52,7 @@ TEST(GanOptions, RefuseValuesOutOfRange) {
         "gan.lr_decay_fraction=1.01", "gan.symmetries=\"around_x\"", "gan.augment=\"all\"",
         "gan.ema=1", "gan.rest_below=2.01", "gan.fairing=-1", "gan.fairing_power=0",
         "gan.micro_batches=-1", "gan.loss=\"wasserstein\"", "gan.gradient_penalty=-1",
-        "gan.fit_share=0.91"}) {
+        "gan.fit_share=0.61"}) {
     EXPECT_THROW(table.ApplyOverride(setting), InputError) << setting;
   }
 }

@@ -62,20 +62,44 @@ TEST(OutlineFit, FindsOfUnseenShapesTheNumbersWhoseSolidsTheyAre) {
   constexpr int kUpdates = 120;
   double first = 0.0, last = 0.0;
   for (int i = 0; i < kUpdates; ++i) {
-    last = fit.Update(set.narrow(0, 16 * (i % 8), 16), generator.get(),
-                      static_cast<double>(kUpdates - i) / kUpdates);
+    const LossAndGradients found = fit.Gradients(set.narrow(0, 16 * (i % 8), 16), generator.get());
+    fit.Take(found.gradients, static_cast<double>(kUpdates - i) / kUpdates);
+    last = std::sqrt(found.loss.item<double>());
     if (i == 0) first = last;
   }
   EXPECT_LT(last, 0.5 * first);
   EXPECT_LT(apart(), 0.5 * before);
 }
 
-TEST(OutlineFit, ASetThatIsNotFiniteIsSaid) {
-  OutlineEncoder encoder(Turned());
-  SolidGenerator generator(Turned());
-  OutlineFit fit(Turned(), encoder);
-  EXPECT_THROW(fit.Update(torch::full({2, 1, 16, 16, 16}, NAN), generator.get(), 1.0),
-               RuntimeFailure);
+TEST(OutlineFit, ASetThatIsNotFiniteIsSaidAndReachesNoWeight) {
+  GanTrainer trainer(Turned(), Gan(), 5, torch::kCPU);
+  trainer.BeginEpisode(0, 2, true);
+  try {
+    trainer.Step(torch::full({2, 1, 16, 16, 16}, NAN));
+    FAIL() << "a NaN was accepted";
+  } catch (const RuntimeFailure& error) {
+    EXPECT_NE(std::string(error.what()).find("step 0"), std::string::npos) << error.what();
+  }
+  for (const auto& [name, tensor] : StateOf(trainer)) {
+    EXPECT_TRUE(tensor.isfinite().all().item<bool>()) << name;
+  }
+}
+
+TEST(OutlineFit, PartsOfABatchSeeAsManyShapesAsABatch) {
+  GanOptions options = Gan();
+  options.micro_batches = 4;
+  GanTrainer parts(Turned(), options, 5, torch::kCPU);
+  parts.BeginEpisode(0, 4, true);
+  options.micro_batches = 0;
+  GanTrainer whole(Turned(), options, 5, torch::kCPU);
+  whole.BeginEpisode(0, 4, true);
+  const torch::Tensor one = Set(1).expand({3, 1, 16, 16, 16});  // every batch is this shape
+  for (GanTrainer* trainer : {&parts, &whole}) trainer->Step(one);
+  const Tensors left = StateOf(parts), right = StateOf(whole);
+  for (const auto& [name, tensor] : right) {
+    if (!name.starts_with("discriminator/encoder/weight")) continue;
+    EXPECT_TRUE(torch::allclose(left.at(name), tensor, 1e-3, 1e-5)) << name;
+  }
 }
 
 TEST(OutlineFit, TheFirstUpdatesOfNewNetworksFitAndTheOthersLearnWhatWasFound) {

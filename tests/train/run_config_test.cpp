@@ -201,6 +201,22 @@ TEST(RunConfig, RefusesAResolutionThatLayersCannotHalve) {
   EXPECT_THROW(NetworksFromToml("[model]\nresolution = 48\n", "x"), InputError);
 }
 
+TEST(RunConfig, RefusesMirrorsAndUpsideDownForTurnedSolids) {
+  RunConfig config;
+  config.model.kind = ModelKind::kSolids;
+  config.model.form = PartForm::kTurned;
+  config.gan.symmetries = Symmetries::kAroundZ;
+  EXPECT_NO_THROW(Validate(config, "x"));
+  config.gan.symmetries = Symmetries::kAroundZAndUp;
+  EXPECT_THROW(Validate(config, "x"), InputError);
+  config.model.form = PartForm::kBoxes;
+  EXPECT_NO_THROW(Validate(config, "x"));
+  config.model.form = PartForm::kTurned;
+  config.gan.symmetries = Symmetries::kNone;
+  config.gan.augment = Augmentation::kFlips;
+  EXPECT_THROW(Validate(config, "x"), InputError);
+}
+
 TEST(RunConfig, RefusesABatchThatIsNoWholeNumberOfPacks) {
   RunConfig config;
   config.model.pack = 3;
