@@ -72,7 +72,7 @@ TEST(Pretrained, AnUnknownNameIsRefusedWithThoseThatThereAre) {
   } catch (const InputError& error) {
     const std::string message = error.what();
     EXPECT_NE(message.find("cups-prior"), std::string::npos) << message;
-    EXPECT_NE(message.find("bottles-prior, cylinders-adversarial"), std::string::npos) << message;
+    EXPECT_NE(message.find("bottles-solids, cylinders-adversarial"), std::string::npos) << message;
   }
 }
 
