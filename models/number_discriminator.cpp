@@ -1,6 +1,5 @@
 #include "antigrasp/models/number_discriminator.h"
 
-#include <cmath>
 #include <string>
 
 #include "antigrasp/models/pack_deviation.h"
@@ -13,7 +12,6 @@ namespace {
 constexpr std::int64_t kUnitsOfWidth = 32;
 constexpr std::size_t kPacksMeet = 2;  // layers
 constexpr double kNumberLeak = 0.2;
-constexpr double kNumberGain = 0.577;  // deviation of fresh weights, by 1 / sqrt(inputs)
 
 }  // namespace
 
@@ -36,11 +34,7 @@ NumberDiscriminatorImpl::NumberDiscriminatorImpl(const ModelOptions& options)
 
 void NumberDiscriminatorImpl::Initialize(RngStream* rng) {
   torch::NoGradGuard no_grad;
-  for (torch::Tensor& weight : weights_) {
-    const auto inputs = static_cast<double>(weight[0].numel());
-    weight.copy_(NormalTensor(weight.sizes(), kNumberGain / std::sqrt(inputs), rng));
-  }
-  for (torch::Tensor& bias : biases_) bias.zero_();
+  FreshLayers(&weights_, &biases_, rng);
   encoder_->Initialize(rng);
 }
 

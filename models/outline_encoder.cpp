@@ -1,6 +1,5 @@
 #include "antigrasp/models/outline_encoder.h"
 
-#include <cmath>
 #include <string>
 
 #include "antigrasp/models/random_tensor.h"
@@ -11,7 +10,7 @@ namespace {
 
 constexpr std::int64_t kChannels = 12, kUnits = 256, kBlock = 250;  // shapes at a time
 constexpr std::size_t kConvolutions = 2;
-constexpr double kEncoderLeak = 0.2, kInputGain = 2.0, kEncoderGain = 0.577;
+constexpr double kEncoderLeak = 0.2, kInputGain = 2.0;
 constexpr double kLeastDeviation = 1e-3;
 
 }  // namespace
@@ -36,11 +35,7 @@ OutlineEncoderImpl::OutlineEncoderImpl(const ModelOptions& options) {
 
 void OutlineEncoderImpl::Initialize(RngStream* rng) {
   torch::NoGradGuard no_grad;
-  for (torch::Tensor& weight : weights_) {
-    const auto inputs = static_cast<double>(weight[0].numel());
-    weight.copy_(NormalTensor(weight.sizes(), kEncoderGain / std::sqrt(inputs), rng));
-  }
-  for (torch::Tensor& bias : biases_) bias.zero_();
+  FreshLayers(&weights_, &biases_, rng);
   fitted_.zero_();
   mean_.zero_();
   deviation_.fill_(1.0);

@@ -2,6 +2,8 @@
 
 #include <ATen/ATen.h>
 
+#include <cmath>
+
 namespace antigrasp {
 
 at::Tensor NormalTensor(at::IntArrayRef shape, double sd, RngStream* rng) {
@@ -11,6 +13,16 @@ at::Tensor NormalTensor(at::IntArrayRef shape, double sd, RngStream* rng) {
     values[i] = static_cast<float>(sd * rng->Normal());
   }
   return result;
+}
+
+void FreshLayers(std::vector<at::Tensor>* weights, std::vector<at::Tensor>* biases,
+                 RngStream* rng) {
+  constexpr double kGain = 0.577;
+  for (at::Tensor& weight : *weights) {
+    const auto inputs = static_cast<double>(weight[0].numel());
+    weight.copy_(NormalTensor(weight.sizes(), kGain / std::sqrt(inputs), rng));
+  }
+  for (at::Tensor& bias : *biases) bias.zero_();
 }
 
 }  // namespace antigrasp
