@@ -25,4 +25,20 @@ inline double StepOperations(const ModelOptions& options, double batch) {
   return 2 * batch * (generator + update_d + update_g);
 }
 
+// The same of drawing: one forward of G.
+inline double SampleOperations(const ModelOptions& options, double grids) {
+  const double c = options.width, taps = 64.0;
+  const double hidden = taps * (8 * 8 * c * 4 * c + 64 * 4 * c * 2 * c + 512 * 2 * c * c);
+  return 2 * grids * (options.latent * 8 * c * 8 + hidden + taps * 4096 * c);
+}
+
+// Bytes of an update's layer outputs, float32, each written and read once forward and its gradient
+// once backward: what goes to memory when no cache holds a layer of the batch.
+inline double StepBytes(const ModelOptions& options, double batch) {
+  const double c = options.width;
+  const double layers = 8 * 8 * c + 64 * 4 * c + 512 * 2 * c + 4096 * c + 32768;  // of a shape
+  const double passes = 1 + 2 + 1;  // G; D on real, on generated; D in G's update
+  return 4.0 * 4 * passes * batch * layers;
+}
+
 }  // namespace antigrasp::bench
