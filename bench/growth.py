@@ -1,7 +1,7 @@
 """What every command's time grows with: bench/growth.py ANTIGRASP [COMMAND].
 A row is a command and one quantity, which is given a value and then four times as much while all else stays: processor seconds of both (medians of
-three calls in turn, all threads added up), their ratio, the power of the quantity that they follow when what the least call takes ("less", measured
-once) is off both, and the ratio of the peaks of memory. N objects are four prisms under N names, so that all rows work on the same shapes; faces are
+three calls in turn, all threads added up), their ratio, the power of the quantity that they follow when what the least call takes ("less") is
+off both, and the ratio of the peaks of memory. N objects are four prisms under N names, so that all rows work on the same shapes; faces are
 those of an ellipsoid. With COMMAND only the rows that begin with it. From the repository's root."""
 import math
 import os
@@ -35,7 +35,7 @@ ROWS = [
     ("evaluate MESHES4 --judge settled --num-grasps N --max-attempts 100000 --out F.csv", "grasps, settled", 50, 1),
     ("compare MESHES MESHES --count 1000", "objects of both sets", 12, 2),
     ("compare MESHES8 MESHES8 --points N", "points", 1024, 16),
-    ("quality CONTACTS --out F.csv", "contacts", 10000, 1),
+    ("quality CONTACTS --out F.csv", "contacts", 40000, 1),
     ("perturb random MESHES --overwrite --out D", "objects", 1, None),
     ("perturb random BALL --overwrite --out D", "faces", 2048, 512),
     ("perturb rotation BALL --overwrite --out D", "faces", 2048, 512),
@@ -161,7 +161,7 @@ def row(inputs, command, quantity, first, least):
     took = [(once(first), once(many)) for _ in range(ROUNDS)]
     (low, low_peak), (high, high_peak) = (tuple(statistics.median(one[i][k] for one in took) for k in (0, 1)) for i in (0, 1))
     # A cost of a + b n^p: what the least call takes is a, and the b of a few.
-    off = once(least)[0] if least is not None else 0.0
+    off = statistics.median(once(least)[0] for _ in range(ROUNDS)) if least is not None else 0.0
     span = TIMES if least is None else (many - least) / (first - least)
     power = f"{math.log((high - off) / (low - off)) / math.log(span):.2f}" if low > off and high > off else ""
     print(f"| `{command.split(' --')[0]}` | {quantity} x {TIMES}, {first:,} to {many:,} | {low:.2f} s, {high:.2f} s | x {high / low:.1f} | {power} | "
