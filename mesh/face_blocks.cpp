@@ -3,8 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <limits>
+
+#include "antigrasp/mesh/block_order.h"
 
 namespace antigrasp {
 namespace {
@@ -26,6 +27,10 @@ const FaceKernels& FaceKernelsHere() {
 // What rounding to float, and float arithmetic, can move a point by, relative to its size.
 constexpr double kFloatSlack = 2e-6;
 
+// Beyond that rounding leaves the sides of ever more faces open, and they would take 72 bytes a
+// face.
+constexpr std::size_t kMostWithSides = 8192;
+
 constexpr float kFarOff = std::numeric_limits<float>::infinity();
 constexpr EightBoxes kNoBoxes = [] {
   EightBoxes boxes{};
@@ -38,50 +43,34 @@ constexpr EightBoxes kNoBoxes = [] {
   return boxes;
 }();
 
-struct Middle {
-  Vector3f at;
-  std::uint32_t face;
-};
-
-// Cuts across the longest side of [low, high] until eight are left, so that faces of a block lie
-// near each other. To the left go 8 times a power of two: blocks in groups of eight, and groups in
-// groups, are then what one cut left together.
-void Sort(std::span<Middle> faces, Vector3f low, Vector3f high) {
-  while (faces.size() > 8) {
-    const std::size_t left = 8 * std::bit_floor((faces.size() + 7) / 8 - 1);
-    Eigen::Index axis;
-    (high - low).maxCoeff(&axis);
-    const auto cut = faces.begin() + static_cast<std::ptrdiff_t>(left);
-    std::nth_element(faces.begin(), cut, faces.end(),
-                     [axis](const Middle& x, const Middle& y) { return x.at[axis] < y.at[axis]; });
-    Vector3f middle = high;
-    middle[axis] = cut->at[axis];
-    Sort(faces.first(left), low, middle);
-    low[axis] = cut->at[axis];
-    faces = faces.subspan(left);
-  }
+Eigen::Matrix3d AxesAlong(const Vector3d& direction) {
+  Eigen::Matrix3d axes;
+  axes.col(0) = direction;
+  axes.col(1) = direction.unitOrthogonal();
+  axes.col(2) = direction.cross(axes.col(1));
+  return axes;
 }
 
-std::vector<Middle> NearEachOther(const std::vector<Vector3f>& vertices, const Corners& corners,
-                                  const Eigen::AlignedBox3f& box) {
-  std::vector<Middle> faces(corners.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    Vector3f sum = Vector3f::Zero();
-    for (const std::int32_t v : corners[i]) sum += vertices[static_cast<std::size_t>(v)];
-    faces[i] = {sum / 3.0f, static_cast<std::uint32_t>(i)};
-  }
-  Sort(faces, box.min(), box.max());
-  return faces;
-}
-
-RayInFloat InFloat(const Vector3d& origin, const Vector3d& direction, double length) {
-  RayInFloat ray;
+RayInFloat InFloat(const LocalRay& ray) {
+  RayInFloat in_float;
   for (int k = 0; k < 3; ++k) {
-    ray.origin[k] = static_cast<float>(origin[k]);
-    ray.direction[k] = static_cast<float>(direction[k]);
+    in_float.origin[k] = static_cast<float>(ray.origin[k]);
+    in_float.direction[k] = static_cast<float>(ray.direction[k]);
   }
-  ray.length = static_cast<float>(length);
-  return ray;
+  in_float.length = static_cast<float>(ray.length);
+  return in_float;
+}
+
+// Around the ray's segment, along the columns of `axes`.
+UprightBox BoxOf(const LocalRay& ray, const Eigen::Matrix3d& axes, double slack) {
+  UprightBox box;
+  for (int k = 0; k < 3; ++k) {
+    const double start = axes.col(k).dot(ray.origin);
+    const double end = start + ray.length * axes.col(k).dot(ray.direction);
+    box.low[k] = static_cast<float>(std::min(start, end) - slack);
+    box.high[k] = static_cast<float>(std::max(start, end) + slack);
+  }
+  return box;
 }
 
 EightBoxes BoxesOf(const std::vector<EightBoxes>& children, std::size_t first) {
@@ -106,7 +95,7 @@ FaceBlocks::FaceBlocks(const std::vector<Vector3f>& vertices, const Corners& cor
   if (!vertices.empty()) {
     radius_ = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).cast<double>().norm();
   }
-  const std::vector<Middle> order = NearEachOther(vertices, corners, bounds);
+  const std::vector<FaceMiddle> order = BlockOrder(vertices, corners, bounds);
   face_.assign(8 * blocks_.size(), kNoFace);
   std::vector<EightBoxes> boxes((blocks_.size() + 7) / 8, kNoBoxes);
   if (!blocks_.empty()) {
@@ -130,6 +119,12 @@ FaceBlocks::FaceBlocks(const std::vector<Vector3f>& vertices, const Corners& cor
   }
   levels_.push_back(std::move(boxes));
   AddLevels();
+  if (blocks_.size() <= kMostWithSides && FaceKernelsHere().take_sides != nullptr) {
+    sides_.resize(blocks_.size());
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      FaceKernelsHere().take_sides(blocks_[i], &sides_[i]);
+    }
+  }
 }
 
 void FaceBlocks::AddLevels() {
@@ -204,7 +199,8 @@ std::array<unsigned char, 8> FaceBlocks::FacesTouching(std::uint32_t block,
   return masks;
 }
 
-void FaceBlocks::TakeBoxes(NearFaces* near) const {
+void FaceBlocks::TakeBoxes(const Eigen::Matrix3d& axes, NearFaces* near) const {
+  near->axes = axes;
   near->boxes.assign((near->blocks.size() + 7) / 8, kNoBoxes);
   for (std::size_t i = 0; i < near->blocks.size(); ++i) {
     const EightBoxes& from = levels_.front()[near->blocks[i] / 8];
@@ -213,21 +209,27 @@ void FaceBlocks::TakeBoxes(NearFaces* near) const {
       near->boxes[i / 8].high[k][i % 8] = from.high[k][near->blocks[i] % 8];
     }
   }
+  float in_float[3][3];
+  for (int a = 0; a < 3; ++a) {
+    for (int k = 0; k < 3; ++k) in_float[a][k] = static_cast<float>(axes(k, a));
+  }
+  const auto turn_boxes = FaceKernelsHere().turn_boxes;
+  for (EightBoxes& boxes : near->boxes) turn_boxes(in_float, &boxes);
+  near->blocks.resize(8 * near->boxes.size(), 0);
 }
 
 void FaceBlocks::NearBox(const OrientedBox& box, NearFaces* near) const {
   near->blocks.clear();
   Near(box, &near->blocks);
-  TakeBoxes(near);
+  TakeBoxes(box.axes, near);
 }
 
-void FaceBlocks::NearLine(const Vector3d& origin, const Vector3d& direction, double length,
-                          NearFaces* near) const {
+void FaceBlocks::NearLine(const LocalRay& ray, NearFaces* near) const {
   near->blocks.clear();
-  const RayInFloat ray = InFloat(origin, direction, length);
+  const RayInFloat in_float = InFloat(ray);
   const auto boxes_met = FaceKernelsHere().boxes_met;
-  Collect([&](const EightBoxes& boxes) { return boxes_met(ray, boxes); }, &near->blocks);
-  TakeBoxes(near);
+  Collect([&](const EightBoxes& boxes) { return boxes_met(in_float, boxes); }, &near->blocks);
+  TakeBoxes(AxesAlong(ray.direction), near);
 }
 
 bool FaceBlocks::CanCast() const {
@@ -235,12 +237,19 @@ bool FaceBlocks::CanCast() const {
   return FaceKernelsHere().faces_met != nullptr && radius_ > 1.0 / kFar && radius_ < kFar;
 }
 
-int FaceBlocks::Met(const Vector3d& origin, const Vector3d& direction, double length,
-                    const NearFaces& near, std::span<std::uint32_t> slots) const {
-  return FaceKernelsHere().faces_met(
-      InFloat(origin, direction, length),
-      {near.boxes.data(), near.blocks.data(), static_cast<int>(near.boxes.size())}, blocks_.data(),
-      slots.data(), static_cast<int>(slots.size()));
+void FaceBlocks::Met(std::span<const LocalRay> rays, const NearFaces& near, Slots* met) const {
+  RayInFloat in_float[kTogether];
+  UprightBox segments[kTogether];
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    in_float[i] = InFloat(rays[i]);
+    const double slack = kFloatSlack * (radius_ + rays[i].origin.lpNorm<1>() + rays[i].length);
+    segments[i] = BoxOf(rays[i], near.axes, slack);
+  }
+  FaceKernelsHere().faces_met(
+      {in_float, segments, static_cast<int>(rays.size())},
+      {near.boxes.data(), near.blocks.data(), static_cast<int>(near.boxes.size())},
+      {blocks_.data(), sides_.empty() ? nullptr : sides_.data(), static_cast<float>(radius_)},
+      {met->counts, met->slots[0], kMostMet});
 }
 
 unsigned FaceBlocks::FacesIn(std::uint32_t block, const BoxInFloat& box) const {

@@ -17,10 +17,20 @@ struct OrientedBox {
   Eigen::Vector3d half;  // along the axes
 };
 
-// Blocks of faces, and their boxes in groups of eight, the last one filled up.
+// A ray about the centre of the blocks, up to where it can meet one.
+struct LocalRay {
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;  // unit
+  double length;
+};
+
+// Blocks of faces in groups of eight, the last one filled up with the first block, and their boxes,
+// which lie along the columns of `axes`, the first of which runs about as the rays do; of no block,
+// no box.
 struct NearFaces {
   std::vector<std::uint32_t> blocks;
   std::vector<EightBoxes> boxes;
+  Eigen::Matrix3d axes;
 };
 
 // All faces of a mesh in blocks of eight that lie near each other, and a tree of their boxes: to
@@ -76,18 +86,21 @@ class FaceBlocks {
     return false;
   }
 
-  // Blocks with their boxes, for Met: near a box, near a ray's segment. Origin about the centre.
+  // Blocks with their boxes, for Met: near a box, near a ray's segment.
   void NearBox(const OrientedBox& box, NearFaces* near) const;
-  void NearLine(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double length,
-                NearFaces* near) const;
+  void NearLine(const LocalRay& ray, NearFaces* near) const;
 
   // Whether Met can be asked: the processor has fused multiply-adds, and the sizes are far from
   // float's ends.
   bool CanCast() const;
-  // Slots of the faces that a ray's line meets, of the near blocks that its segment may meet: how
-  // many, or -1 where there are more than `slots`.
-  int Met(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double length,
-          const NearFaces& near, std::span<std::uint32_t> slots) const;
+  // Slots of the faces that each ray's line meets, of the near blocks that its segment may meet.
+  // Rays and `met` are as many, at most kTogether.
+  static constexpr int kTogether = 32, kMostMet = 32;
+  struct Slots {
+    int counts[kTogether];  // may be more than kMostMet: not all are there
+    std::uint32_t slots[kTogether][kMostMet];
+  };
+  void Met(std::span<const LocalRay> rays, const NearFaces& near, Slots* met) const;
 
   const Eigen::Vector3d& center() const { return center_; }
   double radius() const { return radius_; }  // of a ball about the centre that holds all vertices
@@ -104,13 +117,14 @@ class FaceBlocks {
   template <typename NearEight>
   void Collect(const NearEight& near, std::vector<std::uint32_t>* blocks,
                std::size_t from = 0) const;
-  void TakeBoxes(NearFaces* near) const;
+  void TakeBoxes(const Eigen::Matrix3d& axes, NearFaces* near) const;
   void AddLevels();
 
   Eigen::Vector3d center_;
   double radius_ = 0.0;
   std::vector<std::uint32_t> face_;
   std::vector<BlockOfFaces> blocks_;
+  std::vector<SidesOfFaces> sides_;              // none of big meshes
   std::vector<std::vector<EightBoxes>> levels_;  // of blocks, of eight boxes, ... of all
 };
 

@@ -26,7 +26,6 @@ constexpr double kSteep = 1e-3;
 // Four roundings to float.
 constexpr double kFloatRounding = 2.5e-7;
 constexpr double kNoEnd = std::numeric_limits<double>::infinity();
-constexpr std::size_t kMostMet = 32;
 
 struct Face {
   Vector3d normal;  // zero without area
@@ -48,9 +47,11 @@ Face FaceOf(const TriangleMesh& mesh, std::size_t i, const Vector3d& center) {
   return {normal, normal.dot(corner(0) - center), static_cast<float>(longest2 / norm)};
 }
 
-// Behind that there are no faces.
-double LengthWithin(const Ray& ray, const FaceBlocks& blocks) {
-  return std::min(ray.length, 2.0 * ((ray.origin - blocks.center()).lpNorm<1>() + blocks.radius()));
+// About the blocks' centre; behind that length there are no faces.
+LocalRay Local(const Ray& ray, const FaceBlocks& blocks) {
+  const Vector3d origin = ray.origin - blocks.center();
+  return {origin, ray.direction,
+          std::min(ray.length, 2.0 * (origin.lpNorm<1>() + blocks.radius()))};
 }
 
 // The box with an axis along the first of the rays that holds all of them, cut off behind the mesh.
@@ -61,10 +62,9 @@ OrientedBox BoxAround(std::span<const Ray> rays, const FaceBlocks& blocks) {
   box.axes.col(2) = box.axes.col(0).cross(box.axes.col(1));
   Vector3d low = Vector3d::Constant(kNoEnd), high = -low;
   for (const Ray& ray : rays) {
-    const Vector3d local = ray.origin - blocks.center();
-    const double length = LengthWithin(ray, blocks);
-    for (const double at : {0.0, length}) {
-      const Vector3d end = box.axes.transpose() * (local + at * ray.direction);
+    const LocalRay local = Local(ray, blocks);
+    for (const double at : {0.0, local.length}) {
+      const Vector3d end = box.axes.transpose() * (local.origin + at * ray.direction);
       low = low.cwiseMin(end);
       high = high.cwiseMax(end);
     }
@@ -179,7 +179,7 @@ struct RayScene::Impl {
       std::size_t face;
       double at, slack;
     };
-    std::array<Met, kMostMet> met;
+    std::array<Met, FaceBlocks::kMostMet> met;
     std::size_t count = 0;
     const double size = blocks->radius() + local.lpNorm<1>();
     double latest = kNoEnd;  // that the first one is met
@@ -260,23 +260,45 @@ void RayScene::Near(std::span<const Ray> rays, NearFaces* near) const {
   const FaceBlocks& blocks = impl_->Blocks();
   if (rays.empty() || !blocks.CanCast()) return;
   if (rays.size() > 1) return blocks.NearBox(BoxAround(rays, blocks), near);
-  const Vector3d local = rays.front().origin - impl_->center;
-  blocks.NearLine(local, rays.front().direction, LengthWithin(rays.front(), blocks), near);
+  blocks.NearLine(Local(rays.front(), blocks), near);
+}
+
+void RayScene::Closest(std::span<const Ray> rays, const NearFaces& near,
+                       std::span<std::optional<RayHit>> hits) const {
+  const FaceBlocks& blocks = impl_->Blocks();
+  if (!blocks.CanCast()) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      hits[i] = Closest(rays[i].origin, rays[i].direction, rays[i].length);
+    }
+    return;
+  }
+  std::array<LocalRay, FaceBlocks::kTogether> local;
+  FaceBlocks::Slots met;
+  for (std::size_t done = 0; done < rays.size(); done += local.size()) {
+    const auto these = rays.subspan(done, std::min(local.size(), rays.size() - done));
+    for (std::size_t i = 0; i < these.size(); ++i) local[i] = Local(these[i], blocks);
+    blocks.Met({local.data(), these.size()}, near, &met);
+    for (std::size_t i = 0; i < these.size(); ++i) {
+      const auto count = static_cast<std::size_t>(met.counts[i]);
+      FirstFace first{std::nullopt, true};
+      if (count <= FaceBlocks::kMostMet) {
+        first = impl_->FirstOf(these[i], local[i].origin, {met.slots[i], count});
+      }
+      std::optional<RayHit>& hit = hits[done + i];
+      hit.reset();
+      if (first.open) {
+        hit = Closest(these[i].origin, these[i].direction, these[i].length);
+      } else if (first.face) {
+        hit = impl_->HitOf(these[i].origin, these[i].direction, *first.face, these[i].length);
+      }
+    }
+  }
 }
 
 std::optional<RayHit> RayScene::Closest(const Ray& ray, const NearFaces& near) const {
-  const FaceBlocks& blocks = impl_->Blocks();
-  const Vector3d local = ray.origin - impl_->center;
-  std::array<std::uint32_t, kMostMet> slots;
-  int count = -1;
-  if (blocks.CanCast()) {
-    count = blocks.Met(local, ray.direction, LengthWithin(ray, blocks), near, slots);
-  }
-  const FirstFace first =
-      impl_->FirstOf(ray, local, {slots.data(), slots.data() + std::max(count, 0)});
-  if (count < 0 || first.open) return Closest(ray.origin, ray.direction, ray.length);
-  if (!first.face) return std::nullopt;
-  return impl_->HitOf(ray.origin, ray.direction, *first.face, ray.length);
+  std::optional<RayHit> hit;
+  Closest({&ray, 1}, near, {&hit, 1});
+  return hit;
 }
 
 }  // namespace antigrasp

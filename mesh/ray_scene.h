@@ -45,8 +45,10 @@ class RayScene {
 
   // The faces that rays can meet which reach no further to any side than `rays` do.
   void Near(std::span<const Ray> rays, NearFaces* near) const;
-  // The same answer, bit for bit, for a ray among them: 0.2 us with its share of Near, of 25 rays.
+  // The same answers, bit for bit, for rays among them; hits[i] is of rays[i].
   // Where float arithmetic leaves open which face is first, Embree is asked.
+  void Closest(std::span<const Ray> rays, const NearFaces& near,
+               std::span<std::optional<RayHit>> hits) const;
   std::optional<RayHit> Closest(const Ray& ray, const NearFaces& near) const;
 
   const FaceBlocks& Blocks() const;  // of the whole mesh

@@ -40,6 +40,7 @@ std::vector<std::optional<Closing>> CloseTogether(const RayScene& scene,
   std::vector<std::optional<Closing>> closings(poses.size(), Closing{});
   std::vector<Ray> rays;
   std::vector<std::size_t> of;
+  std::vector<std::optional<RayHit>> hits(poses.size());
   NearFaces near;
   for (std::size_t jaw = 0; jaw < 2; ++jaw) {
     rays.clear();
@@ -51,11 +52,11 @@ std::vector<std::optional<Closing>> CloseTogether(const RayScene& scene,
       of.push_back(i);
     }
     scene.Near(rays, &near);
+    scene.Closest(rays, near, hits);
     for (std::size_t k = 0; k < rays.size(); ++k) {
       auto& closing = closings[of[k]];
-      const auto hit = scene.Closest(rays[k], near);
-      if (hit && hit->front) {
-        closing->face[jaw] = static_cast<std::int32_t>(hit->face);
+      if (hits[k] && hits[k]->front) {
+        closing->face[jaw] = static_cast<std::int32_t>(hits[k]->face);
       } else {
         closing.reset();
       }

@@ -55,6 +55,7 @@ void CloseJawsTogether(const RayScene& scene, std::span<const JawClosing> closin
   std::fill(contacts.begin(), contacts.end(), std::array<Contact, 2>{});
   std::vector<Ray> ways;
   std::vector<std::size_t> of;
+  std::vector<std::optional<RayHit>> hits(closings.size());
   NearFaces near;
   for (std::size_t jaw = 0; jaw < 2; ++jaw) {
     ways.clear();
@@ -65,10 +66,10 @@ void CloseJawsTogether(const RayScene& scene, std::span<const JawClosing> closin
       of.push_back(i);
     }
     scene.Near(ways, &near);
+    scene.Closest(ways, near, hits);
     for (std::size_t k = 0; k < ways.size(); ++k) {
       auto& of_draw = contacts[of[k]];
-      if (!Stops(scene.Closest(ways[k], near), ways[k].direction, closings[of[k]].friction,
-                 &(*of_draw)[jaw])) {
+      if (!Stops(hits[k], ways[k].direction, closings[of[k]].friction, &(*of_draw)[jaw])) {
         of_draw.reset();
       }
     }

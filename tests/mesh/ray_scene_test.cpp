@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -125,9 +126,8 @@ TEST(RayScene, ConcurrentQueriesGiveTheSameHits) {
 
 // Whether a ray among near ones meets what it meets alone, to the last bit.
 ::testing::AssertionResult MeetsTheSame(const RayScene& scene, const Ray& ray,
-                                        const NearFaces& near) {
+                                        const std::optional<RayHit>& among) {
   const auto alone = scene.Closest(ray.origin, ray.direction, ray.length);
-  const auto among = scene.Closest(ray, near);
   if (alone.has_value() != among.has_value()) {
     return ::testing::AssertionFailure() << (alone ? "met alone" : "met among others");
   }
@@ -143,10 +143,13 @@ TEST(RayScene, ConcurrentQueriesGiveTheSameHits) {
 void ExpectTheSame(const RayScene& scene, const std::vector<Ray>& rays) {
   NearFaces near, line;
   scene.Near(rays, &near);
+  std::vector<std::optional<RayHit>> hits(rays.size());
+  scene.Closest(rays, near, hits);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    EXPECT_TRUE(MeetsTheSame(scene, rays[i], near)) << i;
+    EXPECT_TRUE(MeetsTheSame(scene, rays[i], hits[i])) << i;
+    EXPECT_TRUE(MeetsTheSame(scene, rays[i], scene.Closest(rays[i], near))) << i << " one of them";
     scene.Near({&rays[i], 1}, &line);
-    EXPECT_TRUE(MeetsTheSame(scene, rays[i], line)) << i << " by itself";
+    EXPECT_TRUE(MeetsTheSame(scene, rays[i], scene.Closest(rays[i], line))) << i << " by itself";
   }
 }
 
@@ -225,6 +228,43 @@ TEST(NearRays, MeetTheSameFaceOfSheetsAndNeedlesAndAtTheirEnds) {
     rays.push_back({Vector3d(0.04, 0.02, origin.z()), -Vector3d::UnitX(), 0.05});
     rays.push_back({Vector3d(0.015, origin.y(), origin.z()), -Vector3d::UnitX(), 0.05});
     ExpectTheSame(scene, rays);
+  }
+}
+
+// More rays than are cast together, beside more blocks than are listed together, and 80 faces on
+// the way of each.
+TEST(NearRays, MeetTheFirstOfManySheetsHoweverManyTheyAre) {
+  TriangleMesh stack;
+  for (int i = 0; i < 40; ++i) {
+    stack = shapes::Joined(
+        stack, Transformed(shapes::Box({1e-4, 0.02, 0.02}), 1.0, Vector3d(0.001 * i, 0.0, 0.0)));
+  }
+  const RayScene scene(stack);
+  RngStream rng(4, "near rays");
+  for (const double length : {0.0195, 0.0605, 1.0}) {  // into the stack, through it, beyond
+    std::vector<Ray> rays;
+    for (int i = 0; i < 4; ++i) {
+      const auto some = Beside(Vector3d(-0.02, 0.0, 0.0), Vector3d::UnitX(), 0.009, length, &rng);
+      rays.insert(rays.end(), some.begin(), some.end());
+    }
+    ExpectTheSame(scene, rays);
+  }
+}
+
+// As of a plane mesh, where every cut has faces on both sides at one place.
+TEST(NearRays, MeetTheFacesOfAFanThatLieAtOnePlace) {
+  TriangleMesh fan;
+  fan.vertices.push_back(Vector3d::Zero());
+  constexpr int kCount = 97;
+  for (int i = 0; i < kCount; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCount;
+    fan.vertices.emplace_back(0.01 * std::cos(angle), 0.01 * std::sin(angle), 0.0);
+    for (int copy = 0; copy < 3; ++copy) fan.faces.push_back({0, i + 1, (i + 1) % kCount + 1});
+  }
+  const RayScene scene(fan);
+  RngStream rng(5, "near rays");
+  for (int i = 0; i < 40; ++i) {
+    ExpectTheSame(scene, Beside(Vector3d(0.0, 0.0, 0.02), -Vector3d::UnitZ(), 0.008, 0.05, &rng));
   }
 }
 
