@@ -11,8 +11,8 @@ namespace {
 using Eigen::Vector3f;
 
 // One as a whole, to be moved at once.
-using Whole = std::uint32_t __attribute__((vector_size(16)));
-static_assert(sizeof(Whole) == sizeof(FaceMiddle));
+using FaceWhole = std::uint32_t __attribute__((vector_size(16)));
+static_assert(sizeof(FaceWhole) == sizeof(FaceMiddle));
 
 // Moves those that belong to the front there and returns how many they are. Without a branch on
 // what cannot be foretold: every one changes places with the first that stays.
@@ -21,7 +21,7 @@ std::size_t Part(std::span<FaceMiddle> faces, Eigen::Index axis, const Belongs& 
   std::size_t front = 0;
   for (FaceMiddle& face : faces) {
     const bool moves = belongs(face.at.data()[axis]);
-    Whole moved, stays;
+    FaceWhole moved, stays;
     std::memcpy(&moved, &face, sizeof moved);
     std::memcpy(&stays, &faces[front], sizeof stays);
     std::memcpy(static_cast<void*>(&face), &stays, sizeof stays);
