@@ -13,7 +13,7 @@ KIND = "cylinders"
 FRESH_NOISE = 77  # the seed of scores that choose nothing
 # Equal evaluations, but for ways that move parts: every episode scores as many samples.
 COMMON = [f"prior.kind={KIND}", f"cem.episodes={EPISODES}", "cem.samples=1000", "cem.keep=200", "cem.control=false", "cem.prior_scored=500"]
-# What configs/demo.toml does: all samples go on as themselves, 12 trials each.
+# All samples go on as themselves.
 PARTS = ["cem.mode=latent", "cem.variant=diverse", "cem.spread=95", "cem.step=0.05", "cem.part_step=0.35", "cem.samples=400", "cem.keep=400"]
 
 
@@ -38,6 +38,8 @@ WAYS = {
     "solids paper": Way("as paper, with networks that draw solids", "#e08214", ["cem.variant=paper"], solids=True),
     "parts": Way("fixed networks of solids; the parts of all samples moved by 12 trials an episode", "#762a83",
                  [*PARTS, "cem.refine_steps=12"], solids=True),
+    "parts in niches": Way("the same by 20 trials, which compete by niche: those of 200 shapes of the prior set, drawn anew in every episode", "#1b9e77",
+                           [*PARTS, "cem.step=0.02", "cem.refine_steps=20", "cem.refine_niches=200"], solids=True),
     "parts control": Way("the same around random samples, which nothing moves", "0.75", [*PARTS, "cem.select=random"], solids=True),
 }
 

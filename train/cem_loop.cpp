@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "antigrasp/core/error.h"
+#include "antigrasp/train/elite_niches.h"
 #include "antigrasp/train/refined_latents.h"
 #include "antigrasp/train/run_output.h"
 
@@ -14,6 +16,11 @@ namespace antigrasp {
 namespace {
 
 constexpr const char* kRefining = "refining the elites";
+
+// Elites stay this share of cem.spread from the prior set, so that what is drawn around them, all
+// of which goes on, stays within it too: a sample that is left out leaves its place to a second one
+// of another elite, and two of one elite are near-duplicates.
+constexpr double kWithin = 0.97;
 
 }  // namespace
 
@@ -108,14 +115,20 @@ torch::Tensor CemLoop::WithRefinedParts(const torch::Tensor& latents) {
   const LatentTrials trials{.trials = config_.cem.refine_steps,
                             .first = config_.model.latent,
                             .step = config_.cem.part_step};
+  const auto episode = static_cast<std::uint64_t>(number);
+  std::optional<EliteNiches> niches;
+  if (config_.cem.refine_niches > 0 && prior_.size(0) > 1) {
+    niches.emplace(prior_, latents.size(0), config_.cem.refine_niches,
+                   RngStream(config_.seed, "niches", episode));
+  }
   const LatentJudge judge = [&](const torch::Tensor& tried) {
     ScoredStage scored = scorer_(model_->Draw(tried), "");
-    selector_.LeaveOutside(scored.values, &scored.graspabilities);
-    return scored.graspabilities;
+    selector_.LeaveOutside(scored.values, &scored.graspabilities, niches ? kWithin : 1.0);
+    return JudgedLatents(std::move(scored.graspabilities), std::move(scored.values));
   };
-  RngStream rng(config_.seed, "refine", static_cast<std::uint64_t>(number));
-  return RefineLatents(latents, trials, judge, &rng,
-                       observer_->Phase(StageName(number, kRefining)));
+  RngStream rng(config_.seed, "refine", episode);
+  return RefineLatents(latents, trials, judge, &rng, observer_->Phase(StageName(number, kRefining)),
+                       niches ? &*niches : nullptr);
 }
 
 Episode CemLoop::Finish() {

@@ -39,6 +39,7 @@ void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder&
   RunConfig forked = config;
   forked.cem.select = EliteOrder::kRandom;
   forked.cem.refine_steps = 0;
+  forked.cem.refine_niches = 0;
   forked.cem.control = false;
   forked.stl_count = 0;
   WriteFileAtomic(control.Prior(), ReadFile(run.Prior()));

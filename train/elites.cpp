@@ -23,24 +23,6 @@ std::vector<std::int64_t> LeastGraspableFirst(const std::vector<double>& graspab
   return indices;
 }
 
-std::vector<std::int64_t> Shares(const std::vector<double>& weight, std::int64_t keep) {
-  const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
-  AG_CHECK(total > 0.0, "at least one cell has a weight");
-  std::vector<std::int64_t> shares;
-  std::vector<double> remainders;
-  std::int64_t given = 0;
-  for (const double w : weight) {
-    const double exact = static_cast<double>(keep) * w / total;
-    shares.push_back(static_cast<std::int64_t>(exact));
-    remainders.push_back(static_cast<double>(shares.back()) - exact);  // lowest first
-    given += shares.back();
-  }
-  for (const std::int64_t i : LeastGraspable(remainders, keep - given)) {
-    ++shares[static_cast<std::size_t>(i)];
-  }
-  return shares;
-}
-
 }  // namespace
 
 std::vector<std::int64_t> LeastGraspable(const std::vector<double>& graspability,
@@ -60,12 +42,30 @@ std::vector<double> RandomOrder(const std::vector<double>& graspability, RngStre
   return order;
 }
 
+std::vector<std::int64_t> SharesOf(const std::vector<double>& weight, std::int64_t total) {
+  const double sum = std::accumulate(weight.begin(), weight.end(), 0.0);
+  AG_CHECK(sum > 0.0, "at least one cell has a weight");
+  std::vector<std::int64_t> shares;
+  std::vector<double> remainders;
+  std::int64_t given = 0;
+  for (const double w : weight) {
+    const double exact = static_cast<double>(total) * w / sum;
+    shares.push_back(static_cast<std::int64_t>(exact));
+    remainders.push_back(static_cast<double>(shares.back()) - exact);  // lowest first
+    given += shares.back();
+  }
+  for (const std::int64_t i : LeastGraspable(remainders, total - given)) {
+    ++shares[static_cast<std::size_t>(i)];
+  }
+  return shares;
+}
+
 SharedElites LeastGraspableByCell(const std::vector<double>& graspability,
                                   const std::vector<std::int64_t>& cell,
                                   const std::vector<double>& weight, std::int64_t keep) {
   AG_CHECK(cell.size() == graspability.size(), "one cell for each object");
   SharedElites shared;
-  shared.missing = Shares(weight, keep);
+  shared.missing = SharesOf(weight, keep);
   for (std::size_t c = 0; c < weight.size(); ++c) {
     std::vector<double> inside = graspability;
     for (std::size_t i = 0; i < cell.size(); ++i) {

@@ -23,10 +23,14 @@ struct SharedElites {
   std::vector<std::int64_t> missing;  // per cell: the part of its share that no valid object filled
 };
 
-// `keep` is shared out over the cells in proportion to `weight` (largest remainders, ties to the
-// lower cell), and each cell keeps the least graspable of its own: one elite archive cell by cell,
-// as in MAP-Elites (Mouret & Clune 2015), with the prior's density as capacity. cell[i] in
-// [0, weight.size()); weights >= 0, not all 0.
+// `total` shared out in proportion to `weight`: largest remainders, ties to the lower index;
+// weights
+// >= 0, not all 0.
+std::vector<std::int64_t> SharesOf(const std::vector<double>& weight, std::int64_t total);
+
+// `keep` is shared out over the cells in proportion to `weight`, and each cell keeps the least
+// graspable of its own: one elite archive cell by cell, as in MAP-Elites (Mouret & Clune 2015),
+// with the prior's density as capacity. cell[i] in [0, weight.size()); weights >= 0, not all 0.
 SharedElites LeastGraspableByCell(const std::vector<double>& graspability,
                                   const std::vector<std::int64_t>& cell,
                                   const std::vector<double>& weight, std::int64_t keep);

@@ -41,4 +41,17 @@ DistanceMatrix ValueDistances(const torch::Tensor& a, const torch::Tensor& b) {
   return RowDistances(a.flatten(1).to(torch::kFloat), b.flatten(1).to(torch::kFloat));
 }
 
+std::vector<std::int64_t> NearestRows(const torch::Tensor& values, const torch::Tensor& centres) {
+  const torch::NoGradGuard no_grad;
+  const torch::Tensor squares = centres.square().sum(1);
+  std::vector<std::int64_t> found;
+  for (const torch::Tensor& chunk : values.split(256)) {
+    const torch::Tensor rows = chunk.flatten(1).to(torch::kFloat);
+    const torch::Tensor nearest = (squares - 2.0 * torch::mm(rows, centres.t())).argmin(1);
+    found.insert(found.end(), nearest.data_ptr<std::int64_t>(),
+                 nearest.data_ptr<std::int64_t>() + nearest.numel());
+  }
+  return found;
+}
+
 }  // namespace antigrasp

@@ -2,6 +2,9 @@
 
 #include <torch/types.h>
 
+#include <cstdint>
+#include <vector>
+
 #include "antigrasp/datasets/chamfer.h"
 
 namespace antigrasp {
@@ -23,5 +26,9 @@ PriorSimilarity CompareWithPrior(const torch::Tensor& samples, const torch::Tens
 
 // Those distances, [N, M]. The diagonal of a set with itself is rounding noise.
 DistanceMatrix ValueDistances(const torch::Tensor& a, const torch::Tensor& b);
+
+// The row of `centres` [K, r^3], float32, that is nearest to each of values [N, ...]; the first of
+// equals.
+std::vector<std::int64_t> NearestRows(const torch::Tensor& values, const torch::Tensor& centres);
 
 }  // namespace antigrasp

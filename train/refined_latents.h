@@ -4,16 +4,15 @@
 
 #include <cstdint>
 #include <functional>
-#include <vector>
 
 #include "antigrasp/core/parallel.h"
 #include "antigrasp/core/rng.h"
+#include "antigrasp/train/elite_niches.h"
 
 namespace antigrasp {
 
-// Scores of latents [n, ...], lower = better, NaN = not to be had. Row i may be judged with other
-// noise than row j.
-using LatentJudge = std::function<std::vector<double>(const torch::Tensor& latents)>;
+// Judges latents [n, ...]. Row i may be judged with other noise than row j.
+using LatentJudge = std::function<JudgedLatents(const torch::Tensor& latents)>;
 
 struct LatentTrials {
   int trials = 0;
@@ -26,8 +25,14 @@ struct LatentTrials {
 // scores it lower. Every fourth trial the elites are judged again, each in the place of another,
 // with that place's noise: what is kept would else be what the noise was kind to. Calls the judge
 // 1.25 times a trial, with n latents; draws from `rng` depend on n and trials only.
+//
+// With `niches`, which need the judge's values, elites compete by niche (elite_niches.h), what
+// would take a place is judged once more before it does (a quarter more calls, about), and every
+// other trial goes along the line to another elite instead, to either side of its own, with small
+// moves besides (Vassiliades & Mouret 2018): what lowers the score of one often lowers that of
+// others.
 torch::Tensor RefineLatents(const torch::Tensor& elites, const LatentTrials& how,
                             const LatentJudge& judge, RngStream* rng,
-                            const ProgressFn& progress = nullptr);
+                            const ProgressFn& progress = nullptr, EliteNiches* niches = nullptr);
 
 }  // namespace antigrasp

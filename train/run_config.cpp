@@ -35,6 +35,9 @@ void Bind(OptionTable* table, CemOptions* o) {
   table->Add("cem.refine_steps", &o->refine_steps, 0, 1e6,
              "steps of the search that changes every elite before it is learnt from; latent mode: "
              "trials that move its parts; 0 = none");
+  table->Add("cem.refine_niches", &o->refine_niches, 0, 1e6,
+             "latent mode: shapes of the prior set by which elites compete in those trials, each "
+             "in the niche of the nearest; 0 = each for itself");
   table->Add("cem.refine_hausdorff", &o->refine_hausdorff, 0.1, 50,
              "how far that may move its surface, percent of the bounding box's diagonal");
   table->Add("cem.prior_fraction", &o->prior_fraction, 0, 10,
@@ -141,6 +144,11 @@ void Validate(const RunConfig& config, const std::string& origin) {
   if (config.cem.refine_steps > 0 && latent && !(config.cem.part_step > 0.0)) {
     throw InputError("cem.refine_steps with cem.mode = latent", origin,
                      "cem.mode = gan, or cem.part_step > 0: in latent mode parts are refined");
+  }
+  if (config.cem.refine_niches > 0 && !RefinesParts(config.cem)) {
+    throw InputError(
+        "cem.refine_niches = " + std::to_string(config.cem.refine_niches), origin,
+        "0, or cem.mode = latent and cem.refine_steps > 0: they are for parts that are refined");
   }
   if (config.model.kind == ModelKind::kSolids && config.model.form == PartForm::kTurned) {
     CheckTurned(config.gan, origin);

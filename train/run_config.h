@@ -68,6 +68,9 @@ struct CemOptions {
   // elite is changed by before it is learnt from (refined_elites.h). Latent mode: trials that move
   // the parts of every elite by the score of the loop (refined_latents.h). 0 = none.
   int refine_steps = 0;
+  // Latent mode: of how many shapes of the prior set, drawn anew in every episode, the niches are
+  // by which elites compete in these trials (elite_niches.h). 0 = each elite is on its own.
+  int refine_niches = 0;
   double refine_hausdorff = 5.0;  // how far its surface may move, percent of its diagonal
   double prior_fraction = 0.0;    // prior shapes mixed into the elites, as a share of `keep`
   bool check_self_intersection = true;

@@ -67,32 +67,19 @@ EliteSelector::EliteSelector(const RunConfig& config, torch::Tensor prior, Elite
       Draw(Every(prior_.size(0)), config_.cem.cells, RngStream(config_.seed, "cells"));
   centres_ = Rows(prior_, chosen).flatten(1).to(torch::kFloat);
   residents_.resize(chosen.size());
-  const std::vector<std::int64_t> cells = CellsOf(prior_);
+  const std::vector<std::int64_t> cells = NearestRows(prior_, centres_);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     residents_[static_cast<std::size_t>(cells[i])].push_back(static_cast<std::int64_t>(i));
   }
 }
 
-std::vector<std::int64_t> EliteSelector::CellsOf(const torch::Tensor& values) const {
-  const torch::NoGradGuard no_grad;
-  const torch::Tensor squares = centres_.square().sum(1);
-  std::vector<std::int64_t> cells;
-  for (const torch::Tensor& chunk : values.split(256)) {
-    const torch::Tensor rows = chunk.flatten(1).to(torch::kFloat);
-    const torch::Tensor nearest = (squares - 2.0 * torch::mm(rows, centres_.t())).argmin(1);
-    cells.insert(cells.end(), nearest.data_ptr<std::int64_t>(),
-                 nearest.data_ptr<std::int64_t>() + nearest.numel());
-  }
-  return cells;
-}
-
-std::int64_t EliteSelector::LeaveOutside(const torch::Tensor& values,
-                                         std::vector<double>* order) const {
+std::int64_t EliteSelector::LeaveOutside(const torch::Tensor& values, std::vector<double>* order,
+                                         double share) const {
   if (!spread_) return 0;
   const std::vector<double> nearest = spread_->Nearest(values);
   std::int64_t outside = 0;
   for (std::size_t i = 0; i < order->size(); ++i) {
-    if (std::isnan((*order)[i]) || nearest[i] <= spread_->limit()) continue;
+    if (std::isnan((*order)[i]) || nearest[i] <= share * spread_->limit()) continue;
     (*order)[i] = std::numeric_limits<double>::quiet_NaN();
     ++outside;
   }
@@ -111,7 +98,8 @@ Selection EliteSelector::Select(const ScoredStage& scored, int episode) const {
   if (cem.variant == EliteRule::kStratified) {
     std::vector<double> weight;
     for (const auto& residents : residents_) weight.push_back(double(residents.size()));
-    SharedElites shared = LeastGraspableByCell(order, CellsOf(scored.values), weight, cem.keep);
+    SharedElites shared =
+        LeastGraspableByCell(order, NearestRows(scored.values, centres_), weight, cem.keep);
     selection.elites = std::move(shared.elites);
     for (std::size_t c = 0; c < residents_.size(); ++c) {
       const auto stand_ins =

@@ -57,8 +57,9 @@ class EliteSelector {
   EliteSelector(const RunConfig& config, torch::Tensor prior, EliteRefiner refine = nullptr);
   Selection Select(const ScoredStage& scored, int episode) const;
 
-  // NaN in the place of what is beyond cem.spread of `values`; how many that are.
-  std::int64_t LeaveOutside(const torch::Tensor& values, std::vector<double>* order) const;
+  // NaN in the place of what is beyond a share of cem.spread of `values`; how many that are.
+  std::int64_t LeaveOutside(const torch::Tensor& values, std::vector<double>* order,
+                            double share = 1.0) const;
 
   // Network values [K, 1, n, n, n] of the elites as they are learnt from: those that were sampled;
   // with cem.redistance those of the exact distances to their meshes, float16; with
@@ -70,7 +71,6 @@ class EliteSelector {
   torch::Tensor TrainingSet(const torch::Tensor& elites, const Selection& selection) const;
 
  private:
-  std::vector<std::int64_t> CellsOf(const torch::Tensor& values) const;
   torch::Tensor ExactValues(const ScoredStage& scored, const std::vector<std::int64_t>& indices,
                             int episode, const ProgressFn& progress) const;
 

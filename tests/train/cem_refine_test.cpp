@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <set>
 
 #include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/core/error.h"
@@ -10,6 +11,7 @@
 #include "antigrasp/models/sdf_values.h"
 #include "antigrasp/train/cem_loop.h"
 #include "antigrasp/train/cem_run.h"
+#include "antigrasp/train/prior_similarity.h"
 #include "antigrasp/train/sample_set.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
@@ -118,6 +120,32 @@ TEST(CemRefine, LatentModeMovesPartsToLowerScoresWithinThePriorsSpread) {
   EXPECT_NEAR(stray.max().item<double>(), config.cem.step * config.cem.part_step, 1e-7);
 }
 
+// Every prior sphere is a niche with room for one: none of the sizes is left for the smallest.
+TEST(CemRefine, NichesKeepMovedPartsAsSpreadAsThePriorSet) {
+  RunConfig config = shapes::Tiny();
+  config.cem.mode = EpisodeMode::kLatent;
+  config.cem.spread = 100.0;
+  config.cem.samples = config.cem.keep = 8;
+  config.cem.part_step = 0.1;
+  config.cem.refine_steps = 60;
+  config.cem.refine_niches = 8;
+  shapes::SphereModel model(config, /*part_numbers=*/2);
+  StoppingObserver observer;
+  const StageScorer by_volume = [&](const torch::Tensor& values, const std::string&) {
+    return ScoreStageBy(Volume, values, config, nullptr);
+  };
+  const torch::Tensor prior = PriorSpheres(config);
+  CemLoop loop(config, &model, prior, by_volume, &observer);
+  loop.Begin();
+  loop.ScorePrior("spheres");
+  while (!loop.trained()) loop.TrainStep();
+  const torch::Tensor elites = loop.Finish().elites;
+  const std::vector<std::int64_t> nearest = NearestRows(elites, prior.flatten(1).to(torch::kFloat));
+  const std::set<std::int64_t> filled(nearest.begin(), nearest.end());
+  EXPECT_EQ(filled.size(), nearest.size());
+  EXPECT_GE(filled.size(), 7U);
+}
+
 RunConfig TinySolids() {
   RunConfig config = shapes::Tiny();
   config.model.kind = ModelKind::kSolids;
@@ -125,6 +153,7 @@ RunConfig TinySolids() {
   config.cem.mode = EpisodeMode::kLatent;
   config.cem.part_step = 0.5;
   config.cem.refine_steps = 2;
+  config.cem.refine_niches = 3;
   config.cem.episodes = 1;
   config.cem.keep = 6;
   return config;
@@ -140,8 +169,11 @@ std::vector<SdfGrid> Sampled(const std::filesystem::path& networks, bool unmoved
 TEST(CemRefine, SamplesOfMovedPartsHaveAPairOfTheSameZUnmoved) {
   const TempFolder folder;
   StoppingObserver observer;
-  StartRun(TinySolids(), folder / "run", &observer);
+  RunConfig wanted = TinySolids();
+  wanted.cem.control = true;
+  StartRun(wanted, folder / "run", &observer);
   const RunFolder run{folder / "run"};
+  EXPECT_EQ(ConfigOfRun(run.Control()).cem.refine_niches, 0);
   const std::filesystem::path last = run.EpisodeCheckpoint(1);
   const std::vector<SdfGrid> moved = Sampled(last, false), pairs = Sampled(last, true);
   ASSERT_EQ(moved.size(), pairs.size());

@@ -57,6 +57,7 @@ select = "random"
 score = "judge:ours"
 refine_steps = 16
 refine_hausdorff = 1.5
+refine_niches = 18
 part_step = 0.45
 prior_fraction = 0.75
 prior_scored = 13
@@ -92,6 +93,7 @@ TEST(RunConfig, BindsEveryKeyToItsOwnField) {
   EXPECT_EQ(config.cem.score, "judge:ours");
   EXPECT_EQ(config.cem.refine_steps, 16);
   EXPECT_EQ(config.cem.refine_hausdorff, 1.5);
+  EXPECT_EQ(config.cem.refine_niches, 18);
   EXPECT_EQ(config.cem.part_step, 0.45);
   EXPECT_EQ(config.cem.prior_fraction, 0.75);
   EXPECT_EQ(config.cem.prior_scored, 13);
@@ -137,6 +139,12 @@ TEST(RunConfig, RefinesElitesOnlyWhereTheyAreLearntFrom) {
   EXPECT_THROW(Validate(config, "x"), InputError);
   config.model.kind = ModelKind::kSolids;
   EXPECT_NO_THROW(Validate(config, "x"));
+  config.cem.refine_niches = 40;
+  EXPECT_NO_THROW(Validate(config, "x"));
+  config.cem.refine_steps = 0;
+  EXPECT_THROW(Validate(config, "x"), InputError);
+  config.cem.refine_steps = 5;
+  config.cem.refine_niches = 0;
   config.cem.mode = EpisodeMode::kGan;
   EXPECT_THROW(Validate(config, "x"), InputError);
 }
