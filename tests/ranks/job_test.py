@@ -79,6 +79,15 @@ def refined(folder):
     expect_equal(folder / "alone", folder / "of2")
 
 
+def in_niches(folder):
+    """Parts that compete by niche: what is judged a second time is a part of what was judged first."""
+    settings = ("--set", "model.kind=solids", "model.parts=2", "cem.mode=latent", "cem.part_step=0.3", "cem.refine_steps=3",
+                "cem.refine_niches=6", "cem.keep=12")
+    for name, more in (("alone", ()), ("of2", ("--processes", "2"))):
+        subprocess.run(call(folder / name, *settings, *more), check=True, env=environment(), capture_output=True)
+    expect_equal(folder / "alone", folder / "of2")
+
+
 def by_environment(folder):
     one = alone(folder)
     for process in ranks(folder, 8, lambda rank: call(folder / "eight")):  # twice as many as parts of a batch
@@ -245,6 +254,6 @@ def interrupted(folder):
 
 
 with tempfile.TemporaryDirectory() as temporary:
-    {f.__name__: f for f in (processes, refined, by_environment, mpirun, torchrun, killed, kills, killed_at_the_door,
+    {f.__name__: f for f in (processes, refined, in_niches, by_environment, mpirun, torchrun, killed, kills, killed_at_the_door,
                                 other_settings, interrupted)}[CASE](
         pathlib.Path(temporary))
