@@ -38,8 +38,8 @@ WAYS = {
     "solids paper": Way("as paper, with networks that draw solids", "#e08214", ["cem.variant=paper"], solids=True),
     "parts": Way("fixed networks of solids; the parts of all samples moved by 12 trials an episode", "#762a83",
                  [*PARTS, "cem.refine_steps=12"], solids=True),
-    "parts in niches": Way("the same by 20 trials, which compete by niche: those of 100 shapes of the prior set, drawn anew in every episode", "#1b9e77",
-                           [*PARTS, "cem.step=0.02", "cem.refine_steps=20", "cem.refine_niches=100"], solids=True),
+    "parts in niches": Way("the same by 20 trials, which compete by niche: those of 200 shapes of the prior set, drawn anew in every episode", "#1b9e77",
+                           [*PARTS, "cem.step=0.02", "cem.refine_steps=20", "cem.refine_niches=200"], solids=True),
     "parts control": Way("the same around random samples, which nothing moves", "0.75", [*PARTS, "cem.select=random"], solids=True),
 }
 
