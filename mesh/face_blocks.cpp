@@ -27,7 +27,7 @@ const FaceKernels& FaceKernelsHere() {
 // What rounding to float, and float arithmetic, can move a point by, relative to its size.
 constexpr double kFloatSlack = 2e-6;
 
-// Beyond that rounding leaves the sides of ever more faces open, and they would take 72 bytes a
+// Beyond that rounding leaves the sides of ever more faces open, and they would take 76 bytes a
 // face.
 constexpr std::size_t kMostWithSides = 8192;
 

@@ -46,7 +46,9 @@ class RayScene {
   // The faces that rays can meet which reach no further to any side than `rays` do.
   void Near(std::span<const Ray> rays, NearFaces* near) const;
   // The same answers, bit for bit, for rays among them; hits[i] is of rays[i].
-  // Where float arithmetic leaves open which face is first, Embree is asked.
+  // Where float arithmetic leaves open which face is first, Embree is asked. Embree itself may miss
+  // or meet a face thinner than 10 um (of a scene of 10 cm) that begins where a ray ends: there the
+  // answers can differ.
   void Closest(std::span<const Ray> rays, const NearFaces& near,
                std::span<std::optional<RayHit>> hits) const;
   std::optional<RayHit> Closest(const Ray& ray, const NearFaces& near) const;

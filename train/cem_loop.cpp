@@ -17,9 +17,9 @@ namespace {
 
 constexpr const char* kRefining = "refining the elites";
 
-// Elites stay this share of cem.spread from the prior set, so that what is drawn around them, all
-// of which goes on, stays within it too: a sample that is left out leaves its place to a second one
-// of another elite, and two of one elite are near-duplicates.
+// By niche, what lies beyond this share of the limit of cem.spread has no score, so that what is
+// drawn around elites, all of which goes on, stays within the limit too: a sample that is left out
+// leaves its place to a second one of another elite, and two of one elite are near-duplicates.
 constexpr double kWithin = 0.97;
 
 }  // namespace

@@ -39,7 +39,7 @@ EliteNiches::EliteNiches(const torch::Tensor& prior, std::int64_t elites, std::i
     ++residents[static_cast<std::size_t>(niche)];
   }
   capacity_ = SharesOf(residents, elites);
-  // As many shapes as there are elites: that is how near-duplicates are counted.
+  // As many shapes as there are elites: of two sets of one size near-duplicates are counted.
   apart_ = kApart * PriorSpread(prior.slice(0, 0, std::max<std::int64_t>(2, elites)), 50).limit();
 }
 

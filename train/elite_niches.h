@@ -42,8 +42,9 @@ class EliteNiches {
   // kept.
   std::vector<std::int64_t> Promising(const JudgedLatents& trials) const;
 
-  // For every elite the trial that takes its place, or -1; trial i is a change of elite i. Two
-  // products of [elites, r^3] and its transpose.
+  // For every elite the trial that takes its place, or -1; trial i is a change of elite i, and its
+  // parent is what has that place by then. Two products of [elites, r^3] and its transpose, and two
+  // matrices [elites, elites] of float.
   std::vector<std::int64_t> Take(const JudgedLatents& trials);
 
   std::int64_t Filled() const;  // niches that hold an elite

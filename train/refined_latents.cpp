@@ -57,7 +57,8 @@ void LookAgain(const torch::Tensor& latents, const EliteNiches& niches, const La
   const std::vector<std::int64_t> promising = niches.Promising(*trials);
   trials->scores.assign(trials->scores.size(), std::numeric_limits<double>::quiet_NaN());
   if (promising.empty()) return;
-  const torch::Tensor rows = torch::tensor(promising, torch::kLong).flip(0);  // in other places
+  // Last first: nearly all of them in other places than before.
+  const torch::Tensor rows = torch::tensor(promising, torch::kLong).flip(0);
   const std::vector<double> scores = judge(latents.index_select(0, rows)).scores;
   AG_CHECK(scores.size() == promising.size(), "a score for every latent");
   for (std::size_t i = 0; i < scores.size(); ++i) {

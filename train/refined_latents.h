@@ -27,10 +27,10 @@ struct LatentTrials {
 // 1.25 times a trial, with n latents; draws from `rng` depend on n and trials only.
 //
 // With `niches`, which need the judge's values, elites compete by niche (elite_niches.h), what
-// would take a place is judged once more before it does (a quarter more calls, about), and every
-// other trial goes along the line to another elite instead, to either side of its own, with small
-// moves besides (Vassiliades & Mouret 2018): what lowers the score of one often lowers that of
-// others.
+// would take a place is judged once more before it does (one more call a trial, of those alone, in
+// the places 0 and so on), and every other trial goes along the line to another elite instead, to
+// either side of its own, with small moves besides (Vassiliades & Mouret 2018): what lowers the
+// score of one often lowers that of others.
 torch::Tensor RefineLatents(const torch::Tensor& elites, const LatentTrials& how,
                             const LatentJudge& judge, RngStream* rng,
                             const ProgressFn& progress = nullptr, EliteNiches* niches = nullptr);
