@@ -60,22 +60,22 @@ TEST(EliteNiches, LetNothingInThatIsNearToAnotherElite) {
       << "the elite that came is where it came to";
 }
 
-// Two of three shapes are at one place, and the niche of either holds both.
-EliteNiches OneOfTwo() {
-  return EliteNiches(OnALine({0, 0, 40}), 3, 3, RngStream(1, "elite_niches_test"));
+// Three of four shapes are at one place, and the niche of one of them holds all three.
+EliteNiches ThreeAndOne() {
+  return EliteNiches(OnALine({0, 0, 0, 40}), 4, 4, RngStream(1, "elite_niches_test"));
 }
 
 TEST(EliteNiches, HoldAsManyEachAsTheirShareOfThePriorSet) {
-  EliteNiches niches = OneOfTwo();
-  niches.Set({{1, 1, 1}, OnALine({38, 40, 42})});
-  EXPECT_EQ(niches.Take({{2, 2, 2}, OnALine({0, 2, 4})}), (Takes{0, 1, -1}));
+  EliteNiches niches = ThreeAndOne();
+  niches.Set({{1, 1, 1, 1}, OnALine({38, 40, 42, 44})});
+  EXPECT_EQ(niches.Take({{2, 2, 2, 2}, OnALine({0, 2, 4, 6})}), (Takes{0, 1, 2, -1}));
   EXPECT_EQ(niches.Filled(), 2);
 }
 
 TEST(EliteNiches, LeaveATrialThatStaysInItsNicheToItsParent) {
-  EliteNiches niches = OneOfTwo();
-  niches.Set({{5, 3, 1}, OnALine({0, 2, 40})});
-  EXPECT_EQ(niches.Take({{6, 2, 2}, OnALine({1, 3, 41})}), (Takes{-1, 1, -1}));
+  EliteNiches niches = ThreeAndOne();
+  niches.Set({{5, 3, 1, 1}, OnALine({0, 2, 40, 41})});
+  EXPECT_EQ(niches.Take({{6, 2, 2, 2}, OnALine({1, 3, 41, 42})}), (Takes{-1, 1, -1, -1}));
 }
 
 TEST(EliteNiches, KnowTheMeanOfAllThatWasSaidOfAnElite) {
