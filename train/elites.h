@@ -23,9 +23,8 @@ struct SharedElites {
   std::vector<std::int64_t> missing;  // per cell: the part of its share that no valid object filled
 };
 
-// `total` shared out in proportion to `weight`: largest remainders, ties to the lower index;
-// weights
-// >= 0, not all 0.
+// `total` shared out in proportion to `weight` (weights >= 0, not all 0): largest remainders, ties
+// to the lower index.
 std::vector<std::int64_t> SharesOf(const std::vector<double>& weight, std::int64_t total);
 
 // `keep` is shared out over the cells in proportion to `weight`, and each cell keeps the least
