@@ -3,15 +3,21 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
-#include "antigrasp/bundle/convex_part.h"
+#include "antigrasp/mesh/convex_hull.h"
 
 namespace antigrasp {
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kShortest = 0.8;  // of the opening
+// Of a hull of many facets the largest are tried: of a round shape any two are alike, and on one
+// with flat sides these are the largest.
+constexpr std::size_t kMostFacets = 1000;
 
 double WidthAlong(const std::vector<Vector3d>& points, const Vector3d& axis) {
   double low = std::numeric_limits<double>::max(), high = -low;
@@ -22,27 +28,81 @@ double WidthAlong(const std::vector<Vector3d>& points, const Vector3d& axis) {
   return high - low;
 }
 
+// Twice its area along its normal; the largest first.
+std::vector<Vector3d> LargestFacets(const TriangleMesh& hull) {
+  std::vector<Vector3d> facets;
+  for (std::size_t f = 0; f < hull.faces.size(); ++f) facets.push_back(FaceCross(hull, f));
+  std::stable_sort(facets.begin(), facets.end(), [](const Vector3d& a, const Vector3d& b) {
+    return a.squaredNorm() > b.squaredNorm();
+  });
+  facets.resize(std::min(facets.size(), kMostFacets));
+  return facets;
+}
+
+// The corners of the convex hull of points in a plane, counter-clockwise (Andrew's monotone chain).
+std::vector<Vector2d> Outline(std::vector<Vector2d> points) {
+  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
+    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
+  });
+  std::vector<Vector2d> corners;
+  const auto turns_left = [&](const Vector2d& next) {
+    const Vector2d& last = corners.back();
+    const Vector2d a = last - corners[corners.size() - 2], b = next - last;
+    return a.x() * b.y() - a.y() * b.x() > 0.0;
+  };
+  const auto chain = [&](const auto& first, const auto& end) {
+    const std::size_t begin = corners.size();
+    for (auto point = first; point != end; ++point) {
+      while (corners.size() >= begin + 2 && !turns_left(*point)) corners.pop_back();
+      corners.push_back(*point);
+    }
+    corners.pop_back();  // begins the other chain
+  };
+  chain(points.begin(), points.end());
+  chain(points.rbegin(), points.rend());
+  return corners;
+}
+
+// The sides of the smallest rectangle around a convex outline, which lies flush with an edge of it
+// (Freeman & Shapira 1975).
+Vector2d SmallestRectangle(const std::vector<Vector2d>& outline) {
+  Vector2d sides = Vector2d::Zero();
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vector2d edge = outline[(i + 1) % outline.size()] - outline[i];
+    if (!(edge.squaredNorm() > 0.0)) continue;
+    const Vector2d x = edge.normalized(), y(-x.y(), x.x());
+    Vector2d low = Vector2d::Constant(std::numeric_limits<double>::max()), high = -low;
+    for (const Vector2d& corner : outline) {
+      const Vector2d at(x.dot(corner), y.dot(corner));
+      low = low.cwiseMin(at);
+      high = high.cwiseMax(at);
+    }
+    if ((high - low).prod() >= least) continue;
+    sides = high - low;
+    least = sides.prod();
+  }
+  return sides;
+}
+
 }  // namespace
 
 Vector3d OrientedExtents(const TriangleMesh& mesh) {
-  const ConvexPart hull = MakeConvexPart(mesh.vertices);
-  const auto& corners = hull.mesh.vertices;
+  const TriangleMesh hull = ConvexHullOfCorners(mesh.vertices);
   double least = std::numeric_limits<double>::max();
   Vector3d extents = Vector3d::Zero();
-  for (const HalfSpace& plane : hull.planes) {
-    const Vector3d& up = plane.normal;
-    const double height = WidthAlong(corners, up);
-    // The smallest rectangle is flush with an edge of the outline; edges of the hull are tried.
-    for (const HalfSpace& other : hull.planes) {
-      const Vector3d side = other.normal - up * up.dot(other.normal);
-      if (side.norm() < 1e-6) continue;
-      const Vector3d x = side.normalized();
-      const Vector3d found(height, WidthAlong(corners, x), WidthAlong(corners, up.cross(x)));
-      if (found.prod() < least) {
-        least = found.prod();
-        extents = found;
-      }
+  std::vector<Vector2d> flat(hull.vertices.size());
+  for (const Vector3d& facet : LargestFacets(hull)) {
+    if (!(facet.norm() > 0.0)) continue;
+    const Vector3d up = facet.normalized(), x = up.unitOrthogonal(), y = up.cross(x);
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+      flat[i] = {x.dot(hull.vertices[i]), y.dot(hull.vertices[i])};
     }
+    const Vector2d sides = SmallestRectangle(Outline(flat));
+    const Vector3d found(WidthAlong(hull.vertices, up), sides.x(), sides.y());
+    if (found.prod() >= least) continue;
+    least = found.prod();
+    extents = found;
   }
   std::sort(extents.data(), extents.data() + 3);
   return extents;

@@ -6,8 +6,9 @@
 
 namespace antigrasp {
 
-// The sides of the smallest of the boxes that lie flush with a facet of the convex hull, rising
-// (trimesh's oriented bounds, which EGAD takes). Mesh's unit; zero for a flat mesh.
+// The sides of the smallest of the boxes that lie flush with one of the thousand largest facets of
+// the convex hull, rising (trimesh's oriented bounds, which EGAD takes, try all). Mesh's unit; zero
+// for a flat mesh. O(n log n) in the corners of the hull.
 Eigen::Vector3d OrientedExtents(const TriangleMesh& mesh);
 
 // Metres per unit by EGAD's rule, for a gripper that opens `opening` metres (prepare_meshes.py of
