@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "antigrasp/core/background_process.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/version.h"
 #include "antigrasp/ranks/job.h"
@@ -117,6 +118,17 @@ void FollowRanks(RankGroup* group, WorkShare* work, const JudgeMaker& make_judge
 
 namespace {
 
+// This program again, which goes on with a run.
+class RunInBackground : public RunBeside {
+ public:
+  explicit RunInBackground(const std::filesystem::path& folder)
+      : process_("/proc/self/exe", {"train", "--resume", folder.string()}) {}
+  bool Ended() override { return process_.Ended(); }
+
+ private:
+  BackgroundProcess process_;
+};
+
 void Lead(RankGroup* group, RankedShare* work, const RunFn& run, const RunParts& parts) {
   Leader leader(group);
   try {
@@ -142,7 +154,12 @@ void RunAsJob(int processes, const std::function<std::vector<std::string>()>& sa
               const std::function<void()>& pause, const JudgeMaker& make_judge,
               const MeshRefiner& refine, const RunFn& run) {
   const std::unique_ptr<Ranks> ranks = JoinRanks(processes, same, pause);
-  if (ranks == nullptr) return run(MakeGan, {make_judge, InThreads(refine)});
+  if (ranks == nullptr) {
+    const BesideStarter beside = [](const std::filesystem::path& folder) {
+      return std::make_unique<RunInBackground>(folder);
+    };
+    return run(MakeGan, {make_judge, InThreads(refine), {}, {}, beside});
+  }
   RankGroup* const group = &ranks->group();
   RankedShare work(group);
   if (!group->leads()) return Follow(group, &work, make_judge, refine);

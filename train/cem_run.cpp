@@ -3,11 +3,11 @@
 #include <spdlog/spdlog.h>
 #include <torch/types.h>
 
-#include "antigrasp/checkpoints/checkpoint.h"
 #include "antigrasp/checkpoints/pretrained.h"
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/train/cem_loop.h"
+#include "antigrasp/train/control_run.h"
 #include "antigrasp/train/episode_loop.h"
 #include "antigrasp/train/provenance.h"
 #include "antigrasp/train/run_inputs.h"
@@ -34,22 +34,6 @@ void RequireNoRun(const RunFolder& run) {
                    "a new folder, --resume to go on, or --overwrite to start again");
 }
 
-// The control begins where the run it belongs to ended episode 0: same networks, same prior.
-void ForkControl(const RunConfig& config, const RunFolder& run, const RunFolder& control) {
-  RunConfig forked = config;
-  forked.cem.select = EliteOrder::kRandom;
-  forked.cem.refine_steps = 0;
-  forked.cem.refine_niches = 0;
-  forked.cem.control = false;
-  forked.stl_count = 0;
-  WriteFileAtomic(control.Prior(), ReadFile(run.Prior()));
-  Checkpoint checkpoint = ReadCheckpoint(run.EpisodeCheckpoint(0));
-  checkpoint.config = ToToml(forked);
-  WriteCheckpoint(control.Latest(), checkpoint);
-  // Last: a folder with a configuration holds a run.
-  WriteFileAtomic(control.Config(), checkpoint.config);
-}
-
 // nullptr: the graspability scores.
 std::unique_ptr<Judge> JudgeFor(const RunConfig& config, const RunParts& parts) {
   if (RefinesMeshes(config.cem) && !parts.refine) {
@@ -67,17 +51,18 @@ RunResult Finish(const RunConfig& config, const RunFolder& folder, const torch::
     if (parts.make_scorer) return parts.make_scorer(of, judge, recorder);
     return judge != nullptr ? JudgedScorer(of, judge, recorder) : GraspabilityScorer(of, recorder);
   };
+  ControlRun control(config, folder, parts.run_beside);
   RunResult result;
   result.stages = RunEpisodes(config, folder, make(config).get(), prior, scorer(config), recorder,
-                              parts.refine);
+                              parts.refine, [&] { control.BeginBeside(); });
   if (config.cem.control) {
-    const RunFolder control{folder.Control()};
-    const RunLock lock(control);
-    if (!control.HoldsARun()) ForkControl(config, folder, control);
-    spdlog::info("control run: the same retraining on elites drawn at random");
-    const RunConfig forked = ConfigOfRun(control.root);
+    const bool made = control.WaitForOther(recorder);
+    const RunLock lock(RunFolder{folder.Control()});
+    const RunFolder begun = control.Begin();
+    if (!made) spdlog::info("control run: the same on elites drawn at random");
+    const RunConfig forked = ConfigOfRun(begun.root);
     result.control =
-        RunEpisodes(forked, control, make(forked).get(), prior, scorer(forked), recorder);
+        RunEpisodes(forked, begun, make(forked).get(), prior, scorer(forked), recorder);
   }
   recorder->Finish();
   if (judge == nullptr) return result;

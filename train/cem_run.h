@@ -8,6 +8,7 @@
 #include "antigrasp/core/observer.h"
 #include "antigrasp/quality/judge.h"
 #include "antigrasp/train/cem_loop.h"
+#include "antigrasp/train/control_run.h"
 #include "antigrasp/train/make_gan.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_folder.h"
@@ -33,10 +34,11 @@ using ScorerMaker =
 
 // What settings ask of the program that trains, besides the model.
 struct RunParts {
-  JudgeMaker make_judge;         // of a run whose cem.score is not "epsilon"
-  EliteRefiner refine;           // of a run with cem.refine_steps
-  ScorerMaker make_scorer = {};  // of one that shares its samples out
-  PriorMaker make_prior = {};    // of one that shares that out
+  JudgeMaker make_judge;          // of a run whose cem.score is not "epsilon"
+  EliteRefiner refine;            // of a run with cem.refine_steps
+  ScorerMaker make_scorer = {};   // of one that shares its samples out
+  PriorMaker make_prior = {};     // of one that shares that out
+  BesideStarter run_beside = {};  // of the control, while the run goes on
 };
 
 // The CEM + GAN algorithm (V-B, VI-C): train the GAN on the prior set, then repeatedly sample,

@@ -33,13 +33,14 @@ class FolderLoop {
   FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeModel* model,
              const torch::Tensor& prior, StageScorer scorer, RunObserver* observer,
              EliteRefiner refine);
-  std::vector<StageStatistics> Run();
+  std::vector<StageStatistics> Run(std::function<void()> first_trained);
 
  private:
   void Restore();
   void Resume();
   void ScorePrior();
   void TrainEpisode();
+  void FirstIsTrained();
   void TrainUpdates();
   void TrainStep();
   Episode FinishEpisode();
@@ -55,7 +56,8 @@ class FolderLoop {
   ShapeModel* model_;
   RunObserver* observer_;
   CemLoop loop_;
-  LossTable losses_;  // of this episode
+  LossTable losses_;                     // of this episode
+  std::function<void()> first_trained_;  // nullptr: nobody asked, or it was told
   std::optional<ScalarLog> log_;
   UpdateTimer timer_;
   Pace pace_;          // as far as this process knows it
@@ -73,7 +75,8 @@ FolderLoop::FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeMo
       loop_(config, model, prior, std::move(scorer), observer, std::move(refine)),
       losses_{model->ScalarNames(), {}} {}
 
-std::vector<StageStatistics> FolderLoop::Run() {
+std::vector<StageStatistics> FolderLoop::Run(std::function<void()> first_trained) {
+  first_trained_ = std::move(first_trained);
   Restore();
   if (finished_) return loop_.rows();
   MakeFolder(folder_.Events().parent_path());
@@ -126,10 +129,16 @@ void FolderLoop::ScorePrior() {
 }
 
 void FolderLoop::TrainEpisode() {
+  if (episode() > 0) FirstIsTrained();
   if (!loop_.trained()) TrainUpdates();
   MakeFolder(folder_.Episode(episode()));
   Save(folder_.EpisodeCheckpoint(episode()));
   Save(folder_.Latest());
+  FirstIsTrained();
+}
+
+void FolderLoop::FirstIsTrained() {
+  if (const auto tell = std::exchange(first_trained_, nullptr)) tell();
 }
 
 void FolderLoop::TrainUpdates() {
@@ -232,9 +241,10 @@ void FolderLoop::Save(const fs::path& path, bool finished) const {
 std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolder& folder,
                                          ShapeModel* model, const torch::Tensor& prior,
                                          StageScorer scorer, RunObserver* observer,
-                                         EliteRefiner refine) {
+                                         EliteRefiner refine,
+                                         const std::function<void()>& first_trained) {
   return FolderLoop(config, folder, model, prior, std::move(scorer), observer, std::move(refine))
-      .Run();
+      .Run(first_trained);
 }
 
 }  // namespace antigrasp

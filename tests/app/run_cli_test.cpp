@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/datasets/shape_set.h"
@@ -233,6 +234,34 @@ TEST(RunCli, ARunCanBeKilledResumedSampledAndExported) {
   EXPECT_NE(again.text.find(Antigrasp("info " + dir + "whole")
                                 .text.substr(std::string(dir + "whole: antigrasp run\n").size())),
             std::string::npos);
+}
+
+// What a run leaves but its settings (which checkpoints hold too) and the time of day.
+std::map<std::string, std::string> Results(const fs::path& run) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(run)) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_regular_file() || name.ends_with(".toml") || name.ends_with(".pt")) continue;
+    if (entry.path().parent_path().filename() == "tensorboard") continue;
+    files[fs::relative(entry.path(), run).string()] = ReadFile(entry.path());
+  }
+  return files;
+}
+
+TEST(RunCli, AControlBesideItsRunHasTheBytesOfOneAfterIt) {
+  const TempFolder folder;
+  folder.Write("run.toml", kSettings + "[model]\nwidth = 4\nlatent = 8\n");
+  const std::string start = "train " + folder.path().string() + "/run.toml --threads 2 --out ";
+  const Outcome beside = Antigrasp(start + (folder / "beside").string());
+  const Outcome after =
+      Antigrasp(start + (folder / "after").string() + " --set run.control_beside=false");
+  ASSERT_EQ(beside.code, 0) << beside.text;
+  ASSERT_EQ(after.code, 0) << after.text;
+  EXPECT_NE(beside.text.find("in a process beside this one"), std::string::npos) << beside.text;
+  EXPECT_EQ(after.text.find("in a process beside this one"), std::string::npos) << after.text;
+  const auto expected = Results(folder / "after");
+  EXPECT_TRUE(expected.contains("control/episode_2/elites.h5"));
+  EXPECT_TRUE(expected == Results(folder / "beside"));
 }
 
 }  // namespace
