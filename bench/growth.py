@@ -55,7 +55,8 @@ ROWS = [
     ("figure 2 BALL --out F.svg", "faces", 8192, None),
     ("export MESHES --overwrite --out D", "objects", 8, 1),
     ("export BALL --overwrite --out D", "faces", 8192, 512),
-    ("bundle BALL --overwrite --out D", "faces", 512, None),
+    ("bundle MESHES --overwrite --out D", "objects", 1, None),
+    ("bundle BALL --overwrite --out D", "faces", 2048, 512),
     ("info BALL", "faces", 32768, 512),
 ]
 

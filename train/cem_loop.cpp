@@ -122,9 +122,9 @@ torch::Tensor CemLoop::WithRefinedParts(const torch::Tensor& latents) {
                    RngStream(config_.seed, "niches", episode));
   }
   const LatentJudge judge = [&](const torch::Tensor& tried) {
-    ScoredStage scored = scorer_(model_->Draw(tried), "");
-    selector_.LeaveOutside(scored.values, &scored.graspabilities, niches ? kWithin : 1.0);
-    return JudgedLatents(std::move(scored.graspabilities), std::move(scored.values));
+    torch::Tensor values = model_->Draw(tried);
+    ScoredStage scored = scorer_(selector_.WithoutOutside(values, niches ? kWithin : 1.0), "");
+    return JudgedLatents(std::move(scored.graspabilities), std::move(values));
   };
   RngStream rng(config_.seed, "refine", episode);
   return RefineLatents(latents, trials, judge, &rng, observer_->Phase(StageName(number, kRefining)),

@@ -73,13 +73,25 @@ EliteSelector::EliteSelector(const RunConfig& config, torch::Tensor prior, Elite
   }
 }
 
-std::int64_t EliteSelector::LeaveOutside(const torch::Tensor& values, std::vector<double>* order,
-                                         double share) const {
+torch::Tensor EliteSelector::WithoutOutside(const torch::Tensor& values, double share) const {
+  if (!spread_) return values;
+  constexpr double kNothing = -1.0;  // no node inside
+  const std::vector<double> nearest = spread_->Nearest(values);
+  torch::Tensor within = values.clone();
+  for (std::int64_t i = 0; i < values.size(0); ++i) {
+    const bool inside = nearest[static_cast<std::size_t>(i)] <= share * spread_->limit();
+    if (!inside) within[i].fill_(kNothing);
+  }
+  return within;
+}
+
+std::int64_t EliteSelector::LeaveOutside(const torch::Tensor& values,
+                                         std::vector<double>* order) const {
   if (!spread_) return 0;
   const std::vector<double> nearest = spread_->Nearest(values);
   std::int64_t outside = 0;
   for (std::size_t i = 0; i < order->size(); ++i) {
-    if (std::isnan((*order)[i]) || nearest[i] <= share * spread_->limit()) continue;
+    if (std::isnan((*order)[i]) || nearest[i] <= spread_->limit()) continue;
     (*order)[i] = std::numeric_limits<double>::quiet_NaN();
     ++outside;
   }

@@ -57,9 +57,9 @@ class EliteSelector {
   EliteSelector(const RunConfig& config, torch::Tensor prior, EliteRefiner refine = nullptr);
   Selection Select(const ScoredStage& scored, int episode) const;
 
-  // NaN in the place of what is beyond a share of cem.spread of `values`; how many that are.
-  std::int64_t LeaveOutside(const torch::Tensor& values, std::vector<double>* order,
-                            double share = 1.0) const;
+  // `values` with empty grids in the place of those beyond a share of cem.spread, which then cost a
+  // scorer nothing and have no score.
+  torch::Tensor WithoutOutside(const torch::Tensor& values, double share) const;
 
   // Network values [K, 1, n, n, n] of the elites as they are learnt from: those that were sampled;
   // with cem.redistance those of the exact distances to their meshes, float16; with
@@ -73,6 +73,8 @@ class EliteSelector {
  private:
   torch::Tensor ExactValues(const ScoredStage& scored, const std::vector<std::int64_t>& indices,
                             int episode, const ProgressFn& progress) const;
+  // NaN in the place of what is beyond cem.spread of `values`; how many that are.
+  std::int64_t LeaveOutside(const torch::Tensor& values, std::vector<double>* order) const;
 
   const RunConfig& config_;
   torch::Tensor prior_;
