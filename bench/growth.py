@@ -42,7 +42,7 @@ ROWS = [
     ("perturb search MESHES --steps 8 --overwrite --out D", "objects", 1, None),
     ("perturb search BALL --steps 8 --overwrite --out D", "faces", 2048, 512),
     ("perturb search MESHES1 --steps N --overwrite --out D", "steps", 16, 1),
-    ("shape cube --phi 10 --moves N --out F.stl", "moves", 30, None),
+    ("shape icosahedron --phi 10 --moves N --out F.stl", "moves", 100, 1),
     ("poses MESHES --out F.csv", "objects", 16, 1),
     ("poses BALL --out F.csv", "faces", 8192, 512),
     ("trial MESHES --num-grasps 2 --draws 1 --replays 0 --overwrite --out D", "objects", 4, None),
