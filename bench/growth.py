@@ -154,6 +154,13 @@ class Inputs:
         return name
 
 
+def said(command):
+    """`evaluate`, 4 objects."""
+    name = re.sub(r" (MESHES|BALL|GRIDS|CONTACTS|CONFIG).*", "", command.split(" --")[0])
+    of = re.search(r"MESHES(\d+)", command)
+    return f"`{name}`" + (f", {of[1]} object{'s' if of[1] != '1' else ''}" if of else "")
+
+
 def row(inputs, command, quantity, first, least):
     def once(value):
         return call([inputs.word(word, value) for word in command.split()], inputs.folder)
@@ -165,7 +172,7 @@ def row(inputs, command, quantity, first, least):
     off = statistics.median(once(least)[0] for _ in range(ROUNDS)) if least is not None else 0.0
     span = TIMES if least is None else (many - least) / (first - least)
     power = f"{math.log((high - off) / (low - off)) / math.log(span):.2f}" if low > off and high > off else ""
-    print(f"| `{command.split(' --')[0]}` | {quantity} x {TIMES}, {first:,} to {many:,} | {low:.2f} s, {high:.2f} s | x {high / low:.1f} | {power} | "
+    print(f"| {said(command)} | {quantity} x {TIMES}, {first:,} to {many:,} | {low:.2f} s, {high:.2f} s | x {high / low:.1f} | {power} | "
           f"x {high_peak / low_peak:.2f} |", flush=True)
 
 
