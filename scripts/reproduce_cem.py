@@ -147,7 +147,7 @@ def document():
 ## Ways to choose elites, over ten episodes
 
 `scripts/reproduce cem`, written at commit {commit()}. Cylinders, from the pretrained networks `cylinders-prior`, solids from `cylinders-solids`; 1,000 samples and 200 elites in every
-episode, 250 updates where networks are retrained (solids: 200); where parts are moved 400 samples, 6,000 trials. Surfaces: {COMPARED} samples against {COMPARED} prior shapes held out
+episode, 250 updates where networks are retrained (solids: 200); where parts are moved 400 samples and 12 trials of each (in niches 20, and second looks). Surfaces: {COMPARED} samples against {COMPARED} prior shapes held out
 ([similarity.md](similarity.md)); the numbers are kept in [results/cem](results/cem).
 
 {ways}
