@@ -27,6 +27,7 @@ struct TrainFlags {
   std::shared_ptr<std::string> gripper;
   bool or_resume = false;
   bool overwrite = false;
+  bool control_after = false;
   int processes = 1;
 };
 
@@ -66,10 +67,8 @@ void Run(const TrainFlags& flags, const RunParts& parts, const ShapeModelMaker& 
                                                   : ResumeRun(flags.resume, &console, make, parts);
     std::printf("%s", StatisticsTable(result.stages, result.control).c_str());
     std::printf("run: %s\n", folder.c_str());
-    const RunFolder run{folder};
-    if (fs::exists(run.Stl())) {
-      std::printf("least graspable objects, mm: %s\n", run.Stl().string().c_str());
-    }
+    const fs::path stl = RunFolder{folder}.Stl();
+    if (fs::exists(stl)) std::printf("least graspable objects, mm: %s\n", stl.string().c_str());
   } catch (const Interrupted&) {
     if (RunFolder{folder}.HoldsARun()) {
       spdlog::warn("stopped; go on with: antigrasp train --resume {}", folder);
@@ -92,8 +91,11 @@ void Train(const TrainFlags& flags) {
     if (!flags.resume.empty()) return {"--resume " + flags.resume};
     return SameForAll(ConfigOf(flags.run));
   };
-  RunAsJob(flags.processes, same, &ThrowIfInterrupted, &JudgeOf, &Refined,
-           [&](auto& make, auto& parts) { Run(flags, parts, make); });
+  const auto run = [&](const ShapeModelMaker& make, RunParts parts) {
+    if (flags.control_after) parts.run_beside = {};
+    Run(flags, parts, make);
+  };
+  RunAsJob(flags.processes, same, &ThrowIfInterrupted, &JudgeOf, &Refined, run);
 }
 
 }  // namespace
@@ -104,17 +106,15 @@ void AddTrainCommand(CLI::App* app) {
   command->add_option("CONFIG", flags->run.config, "configuration (TOML); without one, defaults");
   command->add_option("--out", flags->out, "folder of the new run");
   command->add_option("--resume", flags->resume, "go on with the run in this folder");
-  command->add_flag("--or-resume", flags->or_resume,
-                    "if --out holds a run of the same settings, go on with it");
+  command->add_flag("--or-resume", flags->or_resume, "go on with a run of these settings in --out");
   command->add_flag("--overwrite", flags->overwrite, "delete a run that --out holds");
-  command
-      ->add_option("--set", flags->run.overrides,
-                   "override settings: --set gan.batch=16 cem.episodes=2; may be repeated")
+  command->add_option("--set", flags->run.overrides, "override settings; may be repeated")
       ->type_name("KEY=VALUE");
   flags->gripper = AddGripperFlag(command, "Options");
   command->add_option("--seed", flags->run.seed, "same as --set run.seed=");
   command->add_option("--threads", flags->run.threads, "same as --set run.threads=");
   AddProcesses(command, &flags->processes);
+  command->add_flag("--control-after", flags->control_after, "the control when the run is done");
   command->add_option("--device", flags->run.device, "same as --set run.device=");
   command->add_option("--mode", flags->run.mode,
                       "same as --set cem.mode=: " + Alternatives(ChoiceNames<EpisodeMode>()));

@@ -12,7 +12,7 @@ import time
 
 def run(beside):
     with tempfile.TemporaryDirectory() as folder:
-        words = [sys.argv[1], "train", *sys.argv[3:], "--set", f"run.control_beside={beside}", "--set", "cem.control=true", "--out", os.path.join(folder, "run")]
+        words = [sys.argv[1], "train", *sys.argv[3:], *([] if beside else ["--control-after"]), "--set", "cem.control=true", "--out", os.path.join(folder, "run")]
         before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
         done = subprocess.run(words, capture_output=True, text=True)
         if done.returncode != 0:
@@ -22,14 +22,14 @@ def run(beside):
 
 
 def main():
-    took = {way: [] for way in ("true", "false")}
+    took = {way: [] for way in (True, False)}
     for _ in range(int(sys.argv[2])):
         for way in took:
             took[way].append(run(way))
-            print(f"control_beside={way}: {took[way][-1][0]:.1f} s, processor {took[way][-1][1]:.1f} s", flush=True)
+            print(f"{'beside' if way else 'after'}: {took[way][-1][0]:.1f} s, processor {took[way][-1][1]:.1f} s", flush=True)
     clock, used = ({way: statistics.median(one[k] for one in took[way]) for way in took} for k in (0, 1))
-    print(f"after {clock['false']:.1f} s ({used['false']:.1f} s of processor time), beside {clock['true']:.1f} s ({used['true']:.1f} s): "
-          f"{clock['false'] / clock['true']:.2f} times as fast")
+    print(f"after {clock[False]:.1f} s ({used[False]:.1f} s of processor time), beside {clock[True]:.1f} s ({used[True]:.1f} s): "
+          f"{clock[False] / clock[True]:.2f} times as fast")
 
 
 main()

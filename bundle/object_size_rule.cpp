@@ -18,6 +18,7 @@ constexpr double kShortest = 0.8;  // of the opening
 // Of a hull of many facets the largest are tried: of a round shape any two are alike, and on one
 // with flat sides these are the largest.
 constexpr std::size_t kMostFacets = 1000;
+constexpr double kOnePlane = 1e-12;  // 1 less the cosine between the normals of a facet
 
 double WidthAlong(const std::vector<Vector3d>& points, const Vector3d& axis) {
   double low = std::numeric_limits<double>::max(), high = -low;
@@ -28,10 +29,20 @@ double WidthAlong(const std::vector<Vector3d>& points, const Vector3d& axis) {
   return high - low;
 }
 
-// Twice its area along its normal; the largest first.
+// Twice its area along its normal; the largest first. The triangles of a facet are a fan about its
+// first corner (mesh/convex_hull.h).
 std::vector<Vector3d> LargestFacets(const TriangleMesh& hull) {
   std::vector<Vector3d> facets;
-  for (std::size_t f = 0; f < hull.faces.size(); ++f) facets.push_back(FaceCross(hull, f));
+  for (std::size_t f = 0; f < hull.faces.size(); ++f) {
+    const Vector3d cross = FaceCross(hull, f);
+    const bool same = f > 0 && hull.faces[f][0] == hull.faces[f - 1][0] &&
+                      cross.normalized().dot(facets.back().normalized()) > 1.0 - kOnePlane;
+    if (same) {
+      facets.back() += cross;
+    } else {
+      facets.push_back(cross);
+    }
+  }
   std::stable_sort(facets.begin(), facets.end(), [](const Vector3d& a, const Vector3d& b) {
     return a.squaredNorm() > b.squaredNorm();
   });
@@ -64,22 +75,29 @@ std::vector<Vector2d> Outline(std::vector<Vector2d> points) {
 }
 
 // The sides of the smallest rectangle around a convex outline, which lies flush with an edge of it
-// (Freeman & Shapira 1975).
+// (Freeman & Shapira 1975). Its other sides touch corners that go around as the edge does
+// (Toussaint 1983: calipers).
 Vector2d SmallestRectangle(const std::vector<Vector2d>& outline) {
+  const std::size_t n = outline.size();
+  const auto corner = [&](std::size_t i) -> const Vector2d& { return outline[i % n]; };
+  // From `from` on, the first corner after which it goes no further that way.
+  const auto furthest = [&](const Vector2d& way, std::size_t from, std::size_t last) {
+    while (from < last && way.dot(corner(from + 1) - corner(from)) > 0.0) ++from;
+    return from;
+  };
   Vector2d sides = Vector2d::Zero();
   double least = std::numeric_limits<double>::max();
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vector2d edge = outline[(i + 1) % outline.size()] - outline[i];
+  std::size_t right = 0, top = 0, left = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector2d edge = corner(i + 1) - corner(i);
     if (!(edge.squaredNorm() > 0.0)) continue;
     const Vector2d x = edge.normalized(), y(-x.y(), x.x());
-    Vector2d low = Vector2d::Constant(std::numeric_limits<double>::max()), high = -low;
-    for (const Vector2d& corner : outline) {
-      const Vector2d at(x.dot(corner), y.dot(corner));
-      low = low.cwiseMin(at);
-      high = high.cwiseMax(at);
-    }
-    if ((high - low).prod() >= least) continue;
-    sides = high - low;
+    right = furthest(x, std::max(right, i + 1), i + n);
+    top = furthest(y, std::max(top, right), i + n);
+    left = furthest(-x, std::max(left, top), i + n);
+    const Vector2d found(x.dot(corner(right) - corner(left)), y.dot(corner(top) - corner(i)));
+    if (found.prod() >= least) continue;
+    sides = found;
     least = sides.prod();
   }
   return sides;

@@ -8,7 +8,7 @@ namespace antigrasp {
 
 // The sides of the smallest of the boxes that lie flush with one of the thousand largest facets of
 // the convex hull, rising (trimesh's oriented bounds, which EGAD takes, try all). Mesh's unit; zero
-// for a flat mesh. O(n log n) in the corners of the hull.
+// for a flat mesh. O(n log n) in the corners n of the hull, for each of these facets.
 Eigen::Vector3d OrientedExtents(const TriangleMesh& mesh);
 
 // Metres per unit by EGAD's rule, for a gripper that opens `opening` metres (prepare_meshes.py of

@@ -9,6 +9,15 @@
 
 namespace antigrasp {
 
+ChildEnd EndOf(int status) {
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    return {-1, "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")"};
+  }
+  const int code = WEXITSTATUS(status);
+  return {code, code == 0 ? "" : "exit code " + std::to_string(code)};
+}
+
 ChildEnd RunChild(const std::filesystem::path& program, const std::vector<std::string>& arguments) {
   std::vector<char*> words{const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) {
@@ -21,12 +30,7 @@ ChildEnd RunChild(const std::filesystem::path& program, const std::vector<std::s
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (WIFSIGNALED(status)) {
-    const int signal = WTERMSIG(status);
-    return {-1, "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")"};
-  }
-  const int code = WEXITSTATUS(status);
-  return {code, code == 0 ? "" : "exit code " + std::to_string(code)};
+  return EndOf(status);
 }
 
 }  // namespace antigrasp

@@ -13,6 +13,9 @@ struct ChildEnd {
                      // started (No such file or directory)"
 };
 
+// Of what waitpid() says of a process that has ended.
+ChildEnd EndOf(int status);
+
 // Runs a program to its end, with this process's environment and standard streams.
 ChildEnd RunChild(const std::filesystem::path& program, const std::vector<std::string>& arguments);
 

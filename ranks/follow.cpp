@@ -122,8 +122,9 @@ namespace {
 class RunInBackground : public RunBeside {
  public:
   explicit RunInBackground(const std::filesystem::path& folder)
-      : process_("/proc/self/exe", {"train", "--resume", folder.string()}) {}
+      : process_("/proc/self/exe", {"antigrasp", "train", "--resume", folder.string()}) {}
   bool Ended() override { return process_.Ended(); }
+  std::string WhyEnded() const override { return process_.end().text; }
 
  private:
   BackgroundProcess process_;

@@ -47,7 +47,7 @@ class Run:
 
 # The paper's loop: the least graspable of all, networks retrained on them.
 SOLIDS_LOOP = ["cem.variant=paper", "gan.lr_decay_fraction=0"]
-# As bottles-solids were trained (docs/training.md).
+# As bottles-solids learn (docs/training.md), but for the rates' fall and how long.
 TURNED = ["model.form=turned", "model.parts=6", "gan.batch=64", "gan.gradient_penalty=1", "gan.learning_rate_g=5e-4", "gan.learning_rate_d=1e-3"]
 
 RUNS = [Run("cylinders", "cylinders", 3, 22),

@@ -12,6 +12,7 @@
 #include "antigrasp/train/provenance.h"
 #include "antigrasp/train/run_inputs.h"
 #include "antigrasp/train/run_lock.h"
+#include "antigrasp/train/run_output.h"
 #include "antigrasp/train/stage.h"
 
 namespace antigrasp {
@@ -44,6 +45,15 @@ std::unique_ptr<Judge> JudgeFor(const RunConfig& config, const RunParts& parts) 
   throw InputError("no judge for cem.score = " + config.cem.score, "configuration", kEpsilonScore);
 }
 
+// What a process that nobody hears would have said of its episodes.
+void SayStages(const std::vector<StageStatistics>& rows) {
+  for (const StageStatistics& row : rows) {
+    if (row.stage < 0) continue;
+    LogStage(row, rows);
+    WarnIfCollapsed(row, rows);
+  }
+}
+
 RunResult Finish(const RunConfig& config, const RunFolder& folder, const torch::Tensor& prior,
                  ProvenanceRecorder* recorder, const ShapeModelMaker& make, Judge* judge,
                  const RunParts& parts) {
@@ -54,15 +64,15 @@ RunResult Finish(const RunConfig& config, const RunFolder& folder, const torch::
   ControlRun control(config, folder, parts.run_beside);
   RunResult result;
   result.stages = RunEpisodes(config, folder, make(config).get(), prior, scorer(config), recorder,
-                              parts.refine, [&] { control.BeginBeside(); });
+                              parts.refine, [&] { return control.BeginBeside(); });
   if (config.cem.control) {
     const bool made = control.WaitForOther(recorder);
-    const RunLock lock(RunFolder{folder.Control()});
-    const RunFolder begun = control.Begin();
+    const std::unique_ptr<RunLock> lock = control.Begin();
     if (!made) spdlog::info("control run: the same on elites drawn at random");
-    const RunConfig forked = ConfigOfRun(begun.root);
+    const RunConfig forked = ConfigOfRun(control.folder().root);
     result.control =
-        RunEpisodes(forked, begun, make(forked).get(), prior, scorer(forked), recorder);
+        RunEpisodes(forked, control.folder(), make(forked).get(), prior, scorer(forked), recorder);
+    if (made) SayStages(result.control);
   }
   recorder->Finish();
   if (judge == nullptr) return result;

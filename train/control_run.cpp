@@ -10,11 +10,15 @@
 #include "antigrasp/core/atomic_file.h"
 #include "antigrasp/core/error.h"
 #include "antigrasp/core/parallel.h"
-#include "antigrasp/train/run_lock.h"
 #include "antigrasp/train/statistics_table.h"
 
 namespace antigrasp {
 namespace {
+
+constexpr auto kLook = std::chrono::milliseconds(100);
+// At a folder that another process has: the control of a run that was killed stops at its next
+// report of progress.
+constexpr int kLooks = 50;
 
 bool HasThreads(const RunConfig& config) {
   return (config.threads > 0 ? config.threads : HardwareThreads()) > 1;
@@ -45,46 +49,65 @@ std::int64_t EpisodesDone(const RunFolder& control) {
 }  // namespace
 
 ControlRun::ControlRun(const RunConfig& config, const RunFolder& run, const BesideStarter& starter)
-    : config_(config), run_(run), starter_(starter) {}
+    : config_(config), run_(run), starter_(starter), control_{run.Control()} {}
 
-void ControlRun::BeginBeside() {
+bool ControlRun::Done() const { return EpisodesDone(control_) == config_.cem.episodes + 1; }
+
+bool ControlRun::BeginBeside() {
   // A program that scores may not be made to be there twice.
   const bool by_program = config_.cem.score.starts_with("judge:");
-  if (!config_.cem.control || !config_.control_beside || !starter_ || by_program ||
-      config_.device != "cpu" || !HasThreads(config_)) {
-    return;
+  if (!config_.cem.control || !starter_ || by_program || config_.device != "cpu" ||
+      !HasThreads(config_)) {
+    return false;
   }
-  const RunFolder control{run_.Control()};
+  if (Done()) return true;
+  if (Lock() == nullptr) return false;
+  Begin();
   try {
-    const RunLock lock(control);
-    Begin();
-  } catch (const InputError&) {  // another process is at it still: left for later
-    return;
+    beside_ = starter_(control_.root);
+  } catch (const RuntimeFailure& failure) {
+    spdlog::warn("{}: the control run comes after this one", failure.what());
+    return false;
   }
   spdlog::info("control run: the same on elites drawn at random, in a process beside this one");
-  beside_ = starter_(control.root);
+  return true;
 }
 
 bool ControlRun::WaitForOther(RunObserver* observer) {
   if (beside_ == nullptr) return false;
-  const RunFolder control{run_.Control()};
-  const std::int64_t all = config_.cem.episodes + 1;
   if (!beside_->Ended()) {
+    const std::int64_t all = config_.cem.episodes + 1;
     const ProgressFn progress = observer->Phase("control run: its episodes");
     while (!beside_->Ended()) {
-      progress(std::min(EpisodesDone(control), all - 1), all);
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      progress(std::min(EpisodesDone(control_), all - 1), all);
+      std::this_thread::sleep_for(kLook);
     }
-    if (EpisodesDone(control) == all) progress(all, all);
+    if (Done()) progress(all, all);
   }
+  const std::string why = beside_->WhyEnded();
   beside_.reset();
-  return EpisodesDone(control) == all;
+  if (Done()) return true;
+  spdlog::warn("the process of the control run ended early ({}): this one goes on with it",
+               why.empty() ? "nobody knows why" : why);
+  return false;
 }
 
-RunFolder ControlRun::Begin() const {
-  const RunFolder control{run_.Control()};
-  if (!control.HoldsARun()) Fork(config_, run_, control);
-  return control;
+std::unique_ptr<RunLock> ControlRun::Lock() const {
+  for (int look = 0; look < kLooks; ++look) {
+    try {
+      return std::make_unique<RunLock>(control_);
+    } catch (const InputError&) {
+      std::this_thread::sleep_for(kLook);
+    }
+  }
+  return nullptr;
+}
+
+std::unique_ptr<RunLock> ControlRun::Begin() const {
+  std::unique_ptr<RunLock> lock = Lock();
+  if (lock == nullptr) lock = std::make_unique<RunLock>(control_);  // says who has it
+  if (!control_.HoldsARun()) Fork(config_, run_, control_);
+  return lock;
 }
 
 }  // namespace antigrasp

@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "antigrasp/core/observer.h"
 #include "antigrasp/train/run_config.h"
 #include "antigrasp/train/run_folder.h"
+#include "antigrasp/train/run_lock.h"
 
 namespace antigrasp {
 
@@ -14,10 +16,11 @@ namespace antigrasp {
 class RunBeside {
  public:
   virtual ~RunBeside() = default;
-  virtual bool Ended() = 0;  // at the run's end or for another reason
+  virtual bool Ended() = 0;                  // at the run's end or for another reason
+  virtual std::string WhyEnded() const = 0;  // "exit code 1", "signal 9 (Killed)"; "" for neither
 };
 
-// Goes on with the run in `folder` by its own configuration.
+// Goes on with the run in `folder` by its own configuration. RuntimeFailure where that cannot be.
 using BesideStarter =
     std::function<std::unique_ptr<RunBeside>(const std::filesystem::path& folder)>;
 
@@ -30,19 +33,26 @@ class ControlRun {
   // All are kept and must live as long as this. starter: may be empty.
   ControlRun(const RunConfig& config, const RunFolder& run, const BesideStarter& starter);
 
-  // Episode 0 is trained: hands the control to another process, where there is a starter,
-  // run.control_beside, a processor and more than one thread, and no program scores.
-  void BeginBeside();
-  // Waits for that process, if there is one: whether it has made all episodes. What it has not done
-  // is left to do.
+  // Episode 0 is trained: begins the control and hands it to another process, where there is a
+  // starter, the networks are on the CPU, it is not for one thread, no program scores and nobody is
+  // at it. Whether another process goes on with it, or has done so.
+  bool BeginBeside();
+  // Waits for that process, if there is one: whether all episodes are made. What is not is left to
+  // do.
   bool WaitForOther(RunObserver* observer);
-  // The folder, begun where it is not.
-  RunFolder Begin() const;
+  // The right to write to the folder, which is begun where it is not. Waits some seconds for a
+  // process that is about to stop, then InputError.
+  std::unique_ptr<RunLock> Begin() const;
+  const RunFolder& folder() const { return control_; }
 
  private:
+  std::unique_ptr<RunLock> Lock() const;  // nullptr: another process keeps it
+  bool Done() const;
+
   const RunConfig& config_;
   const RunFolder& run_;
   const BesideStarter& starter_;
+  RunFolder control_;
   std::unique_ptr<RunBeside> beside_;
 };
 

@@ -33,7 +33,7 @@ class FolderLoop {
   FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeModel* model,
              const torch::Tensor& prior, StageScorer scorer, RunObserver* observer,
              EliteRefiner refine);
-  std::vector<StageStatistics> Run(std::function<void()> first_trained);
+  std::vector<StageStatistics> Run(std::function<bool()> first_trained);
 
  private:
   void Restore();
@@ -52,12 +52,13 @@ class FolderLoop {
   void LogScalars(const LossRow& row, double updates_per_second);
 
   const RunConfig& config_;
+  RunConfig ahead_;  // the same, of what is left to do here
   const RunFolder& folder_;
   ShapeModel* model_;
   RunObserver* observer_;
   CemLoop loop_;
   LossTable losses_;                     // of this episode
-  std::function<void()> first_trained_;  // nullptr: nobody asked, or it was told
+  std::function<bool()> first_trained_;  // nullptr: nobody asked, or it was told
   std::optional<ScalarLog> log_;
   UpdateTimer timer_;
   Pace pace_;          // as far as this process knows it
@@ -69,13 +70,14 @@ FolderLoop::FolderLoop(const RunConfig& config, const RunFolder& folder, ShapeMo
                        const torch::Tensor& prior, StageScorer scorer, RunObserver* observer,
                        EliteRefiner refine)
     : config_(config),
+      ahead_(config),
       folder_(folder),
       model_(model),
       observer_(observer),
       loop_(config, model, prior, std::move(scorer), observer, std::move(refine)),
       losses_{model->ScalarNames(), {}} {}
 
-std::vector<StageStatistics> FolderLoop::Run(std::function<void()> first_trained) {
+std::vector<StageStatistics> FolderLoop::Run(std::function<bool()> first_trained) {
   first_trained_ = std::move(first_trained);
   Restore();
   if (finished_) return loop_.rows();
@@ -138,7 +140,8 @@ void FolderLoop::TrainEpisode() {
 }
 
 void FolderLoop::FirstIsTrained() {
-  if (const auto tell = std::exchange(first_trained_, nullptr)) tell();
+  const auto tell = std::exchange(first_trained_, nullptr);
+  if (tell && tell()) ahead_.cem.control = false;
 }
 
 void FolderLoop::TrainUpdates() {
@@ -148,7 +151,7 @@ void FolderLoop::TrainUpdates() {
     TrainStep();
     if (timer_.Tick()) {
       pace_.update = timer_.seconds();
-      observer_->Note(TrainingForecast(config_, pace_.update));
+      observer_->Note(TrainingForecast(ahead_, pace_.update));
     }
     if (model_->step() % kRecordEvery == 0) {
       losses_.rows.push_back(RowOf(model_->step(), model_->Scalars()));
@@ -186,9 +189,9 @@ Episode FolderLoop::FinishEpisode() {
 // Says what is left as soon as that is known.
 void FolderLoop::TimeStage(double seconds) {
   pace_.stage = seconds;
-  if (told_ || loop_.last() || std::isnan(SecondsLeft(config_, pace_, episode() + 1))) return;
+  if (told_ || loop_.last() || std::isnan(SecondsLeft(ahead_, pace_, episode() + 1))) return;
   told_ = true;
-  observer_->Note(RunForecast(config_, pace_, episode() + 1));
+  observer_->Note(RunForecast(ahead_, pace_, episode() + 1));
 }
 
 void FolderLoop::Record(const Episode& finished) {
@@ -242,7 +245,7 @@ std::vector<StageStatistics> RunEpisodes(const RunConfig& config, const RunFolde
                                          ShapeModel* model, const torch::Tensor& prior,
                                          StageScorer scorer, RunObserver* observer,
                                          EliteRefiner refine,
-                                         const std::function<void()>& first_trained) {
+                                         const std::function<bool()>& first_trained) {
   return FolderLoop(config, folder, model, prior, std::move(scorer), observer, std::move(refine))
       .Run(first_trained);
 }

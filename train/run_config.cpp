@@ -61,9 +61,6 @@ void Bind(OptionTable* table, RunConfig* c) {
       "threads of training; 0 = run.threads; the same bytes for any number, but with residual "
       "blocks, bfloat16 and widths that 8 does not divide for the same number");
   table->Add("run.device", &c->device, {}, "device of the networks: cpu, cuda, cuda:1");
-  table->Add("run.control_beside", &c->control_beside,
-             "the control in a process beside the run, where there is more than one thread and no "
-             "GPU; the same bytes either way");
   table->Add("run.stl_count", &c->stl_count, 0, 10000, "least graspable objects exported as STL");
   table->Add("run.stl_size_mm", &c->stl_size_mm, 1, 10000, "their largest extent, mm");
   table->Add("run.start", &c->start, {},

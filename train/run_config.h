@@ -96,7 +96,6 @@ struct RunConfig {
   int threads = 0;             // of all else; 0 = all; no result depends on it
   int torch_threads = 0;       // of training and sampling; 0 = threads
   std::string device = "cpu";  // cpu, cuda, cuda:1
-  bool control_beside = true;  // the control in a process of its own (control_run.h)
   std::string start;  // networks to begin with: checkpoint or name of pretrained ones; no episode 0
   bool fine_tune = false;  // but they are trained on in episode 0
   std::string prior_file;  // an SDF file instead of a synthetic set

@@ -1,5 +1,6 @@
 #include "antigrasp/train/run_folder.h"
 
+#include <optional>
 #include <vector>
 
 #include "antigrasp/train/run_lock.h"
@@ -18,6 +19,8 @@ std::vector<fs::path> RunFolder::Episodes() const {
 
 void RunFolder::Remove() const {
   const RunLock lock(*this);
+  std::optional<RunLock> of_control;  // of a run that was killed a process may still be there
+  if (fs::is_directory(Control())) of_control.emplace(RunFolder{Control()});
   std::vector<fs::path> written = {Provenance(), Prior(), PriorScores(), Latest(),
                                    Statistics(), Stl(),   Control(),     Events().parent_path()};
   for (const fs::path& episode : Episodes()) written.push_back(episode);

@@ -236,12 +236,12 @@ TEST(RunCli, ARunCanBeKilledResumedSampledAndExported) {
             std::string::npos);
 }
 
-// What a run leaves but its settings (which checkpoints hold too) and the time of day.
+// What a run leaves but what holds the time of day.
 std::map<std::string, std::string> Results(const fs::path& run) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(run)) {
     const std::string name = entry.path().filename().string();
-    if (!entry.is_regular_file() || name.ends_with(".toml") || name.ends_with(".pt")) continue;
+    if (!entry.is_regular_file() || name == "provenance.toml") continue;
     if (entry.path().parent_path().filename() == "tensorboard") continue;
     files[fs::relative(entry.path(), run).string()] = ReadFile(entry.path());
   }
@@ -253,14 +253,18 @@ TEST(RunCli, AControlBesideItsRunHasTheBytesOfOneAfterIt) {
   folder.Write("run.toml", kSettings + "[model]\nwidth = 4\nlatent = 8\n");
   const std::string start = "train " + folder.path().string() + "/run.toml --threads 2 --out ";
   const Outcome beside = Antigrasp(start + (folder / "beside").string());
-  const Outcome after =
-      Antigrasp(start + (folder / "after").string() + " --set run.control_beside=false");
+  const Outcome after = Antigrasp(start + (folder / "after").string() + " --control-after");
   ASSERT_EQ(beside.code, 0) << beside.text;
   ASSERT_EQ(after.code, 0) << after.text;
   EXPECT_NE(beside.text.find("in a process beside this one"), std::string::npos) << beside.text;
   EXPECT_EQ(after.text.find("in a process beside this one"), std::string::npos) << after.text;
+  // The other process did all of it: nothing was left to go on with.
+  EXPECT_EQ(beside.text.find("resuming"), std::string::npos) << beside.text;
+  EXPECT_EQ(beside.text.find("ended early"), std::string::npos) << beside.text;
+  EXPECT_NE(after.text.find("resuming"), std::string::npos) << after.text;
   const auto expected = Results(folder / "after");
   EXPECT_TRUE(expected.contains("control/episode_2/elites.h5"));
+  EXPECT_TRUE(expected.contains("control/checkpoint.pt"));
   EXPECT_TRUE(expected == Results(folder / "beside"));
 }
 

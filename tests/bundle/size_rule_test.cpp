@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "antigrasp/bundle/object_size_rule.h"
 #include "antigrasp/core/rng.h"
@@ -64,6 +66,20 @@ TEST(OrientedExtents, OfAnOctahedronAreKnown) {
   }
   const Eigen::Vector3d expected(2 / std::sqrt(3), std::sqrt(2), 2 * std::sqrt(2.0 / 3));
   EXPECT_TRUE(OrientedExtents(ConvexHull(corners)).isApprox(expected, 1e-12));
+}
+
+// A prism over a regular polygon of 4096 corners, 8188 triangles in two facets and many slim sides:
+// flush with a side it is 2 r cos(pi / n) wide both ways.
+TEST(OrientedExtents, OfADiscAreItsWidthAcrossFlatsAndItsHeight) {
+  constexpr int kCorners = 4096;
+  std::vector<Eigen::Vector3d> corners;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCorners;
+    for (const double z : {0.0, 0.1}) corners.emplace_back(std::cos(angle), std::sin(angle), z);
+  }
+  const double across = 2 * std::cos(std::numbers::pi / kCorners);
+  EXPECT_TRUE(
+      OrientedExtents(ConvexHull(corners)).isApprox(Eigen::Vector3d(0.1, across, across), 1e-9));
 }
 
 TEST(OrientedExtents, OfAFlatMeshAreZero) {

@@ -1,5 +1,6 @@
 #include "antigrasp/core/background_process.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -29,8 +30,9 @@ bool Soon(const std::function<bool()>& true_of) {
 // A shell that makes file "begun", works until it is told to stop and then makes "stopped".
 std::vector<std::string> Works(const TempFolder& folder) {
   const std::string here = folder.path().string();
-  return {"-c", "trap 'touch " + here + "/stopped; exit' TERM; touch " + here +
-                    "/begun; while :; do sleep 0.01; done"};
+  return {"sh", "-c",
+          "trap 'touch " + here + "/stopped; exit' TERM; touch " + here +
+              "/begun; while :; do sleep 0.01; done"};
 }
 
 TEST(BackgroundProcess, IsToldToStopWhenItsObjectGoesWhichWaitsForIt) {
@@ -56,15 +58,38 @@ TEST(BackgroundProcess, IsToldToStopWhenItsMakerIsKilled) {
 TEST(BackgroundProcess, HasAGroupOfItsOwnSoThatCtrlCIsNotItsOwn) {
   const TempFolder folder;
   const std::string file = (folder / "group").string();
-  BackgroundProcess process("/bin/sh", {"-c", "cut -d' ' -f5 /proc/$$/stat > " + file +
-                                                  ".part; mv " + file + ".part " + file});
+  BackgroundProcess process(
+      "/bin/sh", {"sh", "-c",
+                  "cut -d' ' -f5 /proc/$$/stat > " + file + ".part; mv " + file + ".part " + file});
   ASSERT_TRUE(Soon([&] { return process.Ended(); }));
   EXPECT_NE(std::stoi(ReadFile(file)), static_cast<int>(getpgrp()));
 }
 
 TEST(BackgroundProcess, HasEndedWhereTheProgramIsNotThere) {
-  BackgroundProcess process("/no/such/program", {});
+  BackgroundProcess process("/no/such/program", {"program"});
   EXPECT_TRUE(Soon([&] { return process.Ended(); }));
+  EXPECT_EQ(process.end().code, 127);
+}
+
+TEST(BackgroundProcess, SaysHowItEnded) {
+  BackgroundProcess fails("/bin/sh", {"sh", "-c", "exit 3"});
+  BackgroundProcess killed("/bin/sh", {"sh", "-c", "kill -KILL $$"});
+  ASSERT_TRUE(Soon([&] { return fails.Ended() && killed.Ended(); }));
+  EXPECT_EQ(fails.end().text, "exit code 3");
+  EXPECT_TRUE(killed.end().text.starts_with("signal 9")) << killed.end().text;
+}
+
+TEST(BackgroundProcess, HasNoneOfTheFilesThatAreOpenHere) {
+  const TempFolder folder;
+  const std::string list = (folder / "list").string();
+  const int high = ::fcntl(STDERR_FILENO, F_DUPFD, 77);
+  ASSERT_GE(high, 77);
+  BackgroundProcess process("/bin/sh", {"sh", "-c", "ls /proc/$$/fd > " + list});
+  ASSERT_TRUE(Soon([&] { return process.Ended(); }));
+  ::close(high);
+  const std::string files = "\n" + ReadFile(list);
+  EXPECT_NE(files.find("\n0\n"), std::string::npos) << files;
+  EXPECT_EQ(files.find("\n" + std::to_string(high) + "\n"), std::string::npos) << files;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "antigrasp/core/atomic_file.h"
+#include "antigrasp/core/error.h"
 #include "antigrasp/train/cem_run.h"
 #include "antigrasp/train/run_lock.h"
 #include "tests/support/child_process.h"
@@ -38,6 +39,7 @@ class DoneAtOnce : public RunBeside {
  public:
   explicit DoneAtOnce(const std::function<void()>& work) { work(); }
   bool Ended() override { return true; }
+  std::string WhyEnded() const override { return "signal 9 (Killed)"; }
 };
 
 RunParts Beside(const std::function<void(const fs::path&)>& work) {
@@ -112,12 +114,22 @@ int TimesAsked(const RunConfig& config) {
   return asked.times();
 }
 
+// A machine without room for another process.
+TEST(ControlRun, ThatNoProcessCanBeStartedForComesAfterTheRun) {
+  const TempFolder folder;
+  StoppingObserver never;
+  RunParts parts;
+  parts.run_beside = [](const fs::path&) -> std::unique_ptr<RunBeside> {
+    throw RuntimeFailure("no room");
+  };
+  StartRun(WithControl(), folder / "refused", &never, MakeSpheres, parts);
+  StartRun(WithControl(), folder / "after", &never, MakeSpheres);
+  ExpectSameFiles(folder / "after", folder / "refused");
+}
+
 TEST(ControlRun, IsNotHandedOverWithOneThreadOnAGpuWithAProgramThatScoresOrWhereItIsNotWanted) {
   EXPECT_EQ(TimesAsked(WithControl()), 1);
   RunConfig config = WithControl();
-  config.control_beside = false;
-  EXPECT_EQ(TimesAsked(config), 0);
-  config = WithControl();
   config.threads = 1;
   EXPECT_EQ(TimesAsked(config), 0);
   config = WithControl();
@@ -141,11 +153,24 @@ TEST(ControlRun, ThatAnotherProcessTrainsStillIsLeftForLater) {
   Asked asked;
   const BesideStarter starter = asked.Starter();
   ControlRun control(config, run, starter);
-  EXPECT_NO_THROW(control.BeginBeside());
+  EXPECT_FALSE(control.BeginBeside());
   EXPECT_EQ(asked.times(), 0);
   other.Kill();
-  control.BeginBeside();
+  EXPECT_TRUE(control.BeginBeside());
   EXPECT_EQ(asked.times(), 1);
+}
+
+TEST(ControlRun, OfARunThatIsDeletedMustNotBeTrainedByAnother) {
+  const TempFolder folder;
+  const RunFolder run = Begun(folder, WithControl());
+  WriteFileAtomic(run.Config(), ToToml(WithControl()));
+  ChildProcess other([&] { new RunLock(RunFolder{run.Control()}); });
+  ASSERT_TRUE(other.alive());
+  EXPECT_THROW(run.Remove(), InputError);
+  EXPECT_TRUE(run.HoldsARun());
+  other.Kill();
+  run.Remove();
+  EXPECT_FALSE(fs::exists(run.Control()));
 }
 
 }  // namespace
