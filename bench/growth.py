@@ -15,7 +15,7 @@ import tempfile
 PROGRAM = os.path.abspath(sys.argv[1])
 ONLY = sys.argv[2] if len(sys.argv) > 2 else ""
 TIMES, ROUNDS = 4, 3
-TRAIN = ("train --from-scratch CONFIG --set run.threads=1 cem.episodes=0 cem.control=false cem.prior_scored=4 prior.count=8 cem.keep=4 cem.samples=8 "
+TRAIN = ("train CONFIG --fine-tune --set run.threads=1 cem.episodes=0 cem.control=false cem.prior_scored=4 prior.count=8 cem.keep=4 cem.samples=8 "
          "gan.batch=8 cem.prior_iterations=N --overwrite --out RUN")
 
 # Command, quantity, its first value, the value that is "less" (None: nothing is taken off). MESHES, GRIDS, BALL, CONTACTS: made for N.
