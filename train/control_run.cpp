@@ -61,8 +61,11 @@ bool ControlRun::BeginBeside() {
     return false;
   }
   if (Done()) return true;
-  if (Lock() == nullptr) return false;
-  Begin();
+  {  // goes before the other process takes it
+    const std::unique_ptr<RunLock> lock = Lock();
+    if (lock == nullptr) return false;
+    ForkUnlessBegun();
+  }
   try {
     beside_ = starter_(control_.root);
   } catch (const RuntimeFailure& failure) {
@@ -106,8 +109,12 @@ std::unique_ptr<RunLock> ControlRun::Lock() const {
 std::unique_ptr<RunLock> ControlRun::Begin() const {
   std::unique_ptr<RunLock> lock = Lock();
   if (lock == nullptr) lock = std::make_unique<RunLock>(control_);  // says who has it
-  if (!control_.HoldsARun()) Fork(config_, run_, control_);
+  ForkUnlessBegun();
   return lock;
+}
+
+void ControlRun::ForkUnlessBegun() const {
+  if (!control_.HoldsARun()) Fork(config_, run_, control_);
 }
 
 }  // namespace antigrasp

@@ -47,6 +47,7 @@ class ControlRun {
 
  private:
   std::unique_ptr<RunLock> Lock() const;  // nullptr: another process keeps it
+  void ForkUnlessBegun() const;
   bool Done() const;
 
   const RunConfig& config_;
