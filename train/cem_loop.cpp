@@ -119,7 +119,7 @@ torch::Tensor CemLoop::WithRefinedParts(const torch::Tensor& latents) {
   std::optional<EliteNiches> niches;
   if (config_.cem.refine_niches > 0 && prior_.size(0) > 1) {
     niches.emplace(prior_, latents.size(0), config_.cem.refine_niches,
-                   RngStream(config_.seed, "niches", episode));
+                   RngStream(config_.seed, "niches", episode), config_.cem.refine_admits);
   }
   const LatentJudge judge = [&](const torch::Tensor& tried) {
     torch::Tensor values = model_->Draw(tried);

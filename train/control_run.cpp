@@ -29,6 +29,7 @@ void Fork(const RunConfig& config, const RunFolder& run, const RunFolder& contro
   forked.cem.select = EliteOrder::kRandom;
   forked.cem.refine_steps = 0;
   forked.cem.refine_niches = 0;
+  forked.cem.refine_admits = 100.0;
   forked.cem.control = false;
   forked.stl_count = 0;
   WriteFileAtomic(control.Prior(), ReadFile(run.Prior()));

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "antigrasp/core/check.h"
+#include "antigrasp/core/statistics.h"
 #include "antigrasp/train/elites.h"
 #include "antigrasp/train/prior_similarity.h"
 #include "antigrasp/train/prior_spread.h"
@@ -26,7 +28,8 @@ JudgedLatents::JudgedLatents(std::vector<double> judged, torch::Tensor drawn)
     : scores(std::move(judged)), values(std::move(drawn)) {}
 
 EliteNiches::EliteNiches(const torch::Tensor& prior, std::int64_t elites, std::int64_t niches,
-                         RngStream rng) {
+                         RngStream rng, double admits)
+    : admits_(admits) {
   const torch::NoGradGuard no_grad;
   const std::int64_t shapes = prior.size(0);
   AG_CHECK(elites > 0 && niches > 0, "elites, and niches for them");
@@ -70,6 +73,17 @@ std::int64_t EliteNiches::Filled() const {
   return std::count_if(count_.begin(), count_.end(), [](std::int64_t n) { return n > 0; });
 }
 
+// What comes where there is room has not been refined there. Without a limit the last of it is what
+// an episode ends with: of bottles a twentieth, which scores as shapes of the prior set do.
+double EliteNiches::Limit() const {
+  std::vector<double> known;
+  for (const double score : score_) {
+    if (!std::isnan(score)) known.push_back(score);
+  }
+  if (admits_ >= 100.0 || known.empty()) return std::numeric_limits<double>::infinity();
+  return DiscretePercentile(std::move(known), admits_);
+}
+
 bool EliteNiches::HasTooMany(std::int64_t elite) const {
   const std::size_t niche = niche_[static_cast<std::size_t>(elite)];
   return count_[niche] > capacity_[niche];
@@ -93,19 +107,20 @@ EliteNiches::Place EliteNiches::PlaceOf(std::int64_t trial, std::size_t niche) c
   return place;
 }
 
-bool EliteNiches::Takes(double score, const Place& place) const {
+bool EliteNiches::Takes(double score, const Place& place, double limit) const {
   if (std::isnan(score) || place.elite < 0) return false;
   const double there = score_[static_cast<std::size_t>(place.elite)];
-  return place.at_any_score || std::isnan(there) || score < there;
+  return (place.at_any_score && score <= limit) || std::isnan(there) || score < there;
 }
 
 std::vector<std::int64_t> EliteNiches::Promising(const JudgedLatents& trials) const {
   const std::vector<std::int64_t> niches = NearestRows(trials.values, centres_);
+  const double limit = Limit();
   std::vector<std::int64_t> promising;
   for (std::int64_t i = 0; i < std::ssize(niches); ++i) {
     const auto slot = static_cast<std::size_t>(i);
     const Place place = PlaceOf(i, static_cast<std::size_t>(niches[slot]));
-    if (Takes(trials.scores[slot], place)) promising.push_back(i);
+    if (Takes(trials.scores[slot], place, limit)) promising.push_back(i);
   }
   return promising;
 }
@@ -124,12 +139,13 @@ std::vector<std::int64_t> EliteNiches::Take(const JudgedLatents& trials) {
     }
     return false;
   };
+  const double limit = Limit();
   std::vector<std::int64_t> takes(score_.size(), -1);
   for (std::int64_t i = 0; i < count; ++i) {
     const double score = trials.scores[static_cast<std::size_t>(i)];
     const auto niche = static_cast<std::size_t>(niches[static_cast<std::size_t>(i)]);
     const Place place = PlaceOf(i, niche);
-    if (!Takes(score, place) || near_another(i, place.elite)) continue;
+    if (!Takes(score, place, limit) || near_another(i, place.elite)) continue;
     const auto slot = static_cast<std::size_t>(place.elite);
     takes[slot] = i;
     score_[slot] = score;

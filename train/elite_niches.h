@@ -22,14 +22,17 @@ struct JudgedLatents {
 // set. Trials alone would take all elites to where a set's least graspable shapes are. A trial
 //   - that falls into its parent's niche takes its parent's place if it scores lower;
 //   - into a niche with room, the place of its parent where that one's niche has too many, else
-//     that of the highest score among all niches that have too many, whatever it scores itself;
+//     that of the highest score among all niches that have too many, whatever it scores itself up
+//     to a limit, beyond it only if it scores lower;
 //   - into a full niche, the place of the highest score there if it scores lower;
 // but nowhere if it would lie nearer to another elite than near-duplicates are apart.
 class EliteNiches {
  public:
   // prior: network values [N, ...], N >= 2; `niches` of its shapes, at least 1, are drawn from
-  // `rng`, all if it has fewer. elites: how many there are.
-  EliteNiches(const torch::Tensor& prior, std::int64_t elites, std::int64_t niches, RngStream rng);
+  // `rng`, all if it has fewer. elites: how many there are. admits: the limit above, as a
+  // percentile of the scores of the elites as they are then; at 100 there is none.
+  EliteNiches(const torch::Tensor& prior, std::int64_t elites, std::int64_t niches, RngStream rng,
+              double admits = 100.0);
 
   // The elites as they are; elite i is row i.
   void Set(const JudgedLatents& elites);
@@ -54,15 +57,16 @@ class EliteNiches {
     std::int64_t elite;  // -1: none
     bool at_any_score;
   };
+  double Limit() const;
   Place PlaceOf(std::int64_t trial, std::size_t niche) const;
-  bool Takes(double score, const Place& place) const;
+  bool Takes(double score, const Place& place, double limit) const;
   bool HasTooMany(std::int64_t elite) const;
   bool Higher(std::int64_t a, std::int64_t b) const;  // NaN is highest
 
   torch::Tensor centres_;               // [niches, r^3] float32
   std::vector<std::int64_t> capacity_;  // of each niche; their sum is the number of elites
   std::vector<std::int64_t> count_;     // of each niche
-  double apart_ = 0.0;
+  double apart_ = 0.0, admits_ = 100.0;
   std::vector<double> score_;       // of each elite, a mean
   std::vector<int> judged_;         // how often that was, of each elite
   std::vector<std::size_t> niche_;  // of each elite

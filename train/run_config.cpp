@@ -38,6 +38,9 @@ void Bind(OptionTable* table, CemOptions* o) {
   table->Add("cem.refine_niches", &o->refine_niches, 0, 1e6,
              "latent mode: shapes of the prior set by which elites compete in those trials, each "
              "in the niche of the nearest; 0 = each for itself");
+  table->Add("cem.refine_admits", &o->refine_admits, 0, 100,
+             "with niches: where there is room a trial comes in that scores no higher than this "
+             "percentage of the elites do; 100 = whatever it scores");
   table->Add("cem.refine_hausdorff", &o->refine_hausdorff, 0.1, 50,
              "how far that may move its surface, percent of the bounding box's diagonal");
   table->Add("cem.prior_fraction", &o->prior_fraction, 0, 10,
@@ -149,6 +152,10 @@ void Validate(const RunConfig& config, const std::string& origin) {
     throw InputError(
         "cem.refine_niches = " + std::to_string(config.cem.refine_niches), origin,
         "0, or cem.mode = latent and cem.refine_steps > 0: they are for parts that are refined");
+  }
+  if (config.cem.refine_admits < 100.0 && config.cem.refine_niches == 0) {
+    throw InputError("cem.refine_admits below 100", origin,
+                     "100, or cem.refine_niches > 0: it says what a niche with room lets in");
   }
   if (config.model.kind == ModelKind::kSolids && config.model.form == PartForm::kTurned) {
     CheckTurned(config.gan, origin);

@@ -171,9 +171,11 @@ TEST(CemRefine, SamplesOfMovedPartsHaveAPairOfTheSameZUnmoved) {
   StoppingObserver observer;
   RunConfig wanted = TinySolids();
   wanted.cem.control = true;
+  wanted.cem.refine_admits = 90.0;
   StartRun(wanted, folder / "run", &observer);
   const RunFolder run{folder / "run"};
   EXPECT_EQ(ConfigOfRun(run.Control()).cem.refine_niches, 0);
+  EXPECT_NO_THROW(Validate(ConfigOfRun(run.Control()), "the control"));
   const std::filesystem::path last = run.EpisodeCheckpoint(1);
   const std::vector<SdfGrid> moved = Sampled(last, false), pairs = Sampled(last, true);
   ASSERT_EQ(moved.size(), pairs.size());

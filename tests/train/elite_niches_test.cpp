@@ -20,8 +20,8 @@ torch::Tensor OnALine(const std::vector<float>& places) {
 
 // Shapes at 0, 10, 20 and 30, each of which has a niche with room for one; near-duplicates are
 // nearer than 5.5.
-EliteNiches FourNiches() {
-  return EliteNiches(OnALine({0, 10, 20, 30}), 4, 4, RngStream(1, "elite_niches_test"));
+EliteNiches FourNiches(double admits = 100.0) {
+  return EliteNiches(OnALine({0, 10, 20, 30}), 4, 4, RngStream(1, "elite_niches_test"), admits);
 }
 
 using Takes = std::vector<std::int64_t>;
@@ -32,6 +32,35 @@ TEST(EliteNiches, LetTrialsIntoNichesWithRoomWhateverTheyScore) {
   EXPECT_EQ(niches.Filled(), 1);
   EXPECT_EQ(niches.Take({{9, 9, 9, 9}, OnALine({10, 20, 30, 3})}), (Takes{0, 1, 2, -1}));
   EXPECT_EQ(niches.Filled(), 4);
+}
+
+// Of 1, 2, 3 and 8 half are at most 2, three quarters at most 3.
+TEST(EliteNiches, LetTrialsIntoNichesWithRoomUpToTheAdmittedPercentileOfTheScores) {
+  const JudgedLatents elites({1, 2, 3, 8}, OnALine({0, 1, 2, 3}));
+  const auto taken = [&](double admits, double score) {
+    EliteNiches niches = FourNiches(admits);
+    niches.Set(elites);
+    const JudgedLatents trials({score, 9, 9, 9}, OnALine({10, 1, 2, 3}));
+    const bool promising = niches.Promising(trials) == Takes{0};
+    EXPECT_EQ(niches.Take(trials), (Takes{promising ? 0 : -1, -1, -1, -1}));
+    return niches.Filled() == 2;
+  };
+  EXPECT_TRUE(taken(75, 3));
+  EXPECT_FALSE(taken(75, 3.1));
+  EXPECT_TRUE(taken(50, 2));
+  EXPECT_FALSE(taken(50, 2.1));
+  EXPECT_TRUE(taken(0, 0.9)) << "what scores lower than what has to go comes in";
+  EXPECT_FALSE(taken(0, 1.1));
+  EXPECT_TRUE(taken(100, 50));
+}
+
+TEST(EliteNiches, AdmitByThoseElitesThatHaveAScore) {
+  EliteNiches niches = FourNiches(50);
+  niches.Set({{1, 2, kNoScore, kNoScore}, OnALine({0, 1, 2, 3})});
+  EXPECT_EQ(niches.Promising({{1, 9, 9, 9}, OnALine({10, 1, 2, 3})}), (Takes{0, 2, 3}));
+  niches.Set({{kNoScore, kNoScore, kNoScore, kNoScore}, OnALine({0, 1, 2, 3})});
+  EXPECT_EQ(niches.Take({{9, kNoScore, kNoScore, kNoScore}, OnALine({10, 1, 2, 3})}),
+            (Takes{0, -1, -1, -1}));
 }
 
 TEST(EliteNiches, GiveRoomToTheTrialOfAnotherNicheInPlaceOfTheHighestScoreWhereThereAreTooMany) {

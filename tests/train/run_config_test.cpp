@@ -58,6 +58,7 @@ score = "judge:ours"
 refine_steps = 16
 refine_hausdorff = 1.5
 refine_niches = 18
+refine_admits = 87.5
 part_step = 0.45
 prior_fraction = 0.75
 prior_scored = 13
@@ -94,6 +95,7 @@ TEST(RunConfig, BindsEveryKeyToItsOwnField) {
   EXPECT_EQ(config.cem.refine_steps, 16);
   EXPECT_EQ(config.cem.refine_hausdorff, 1.5);
   EXPECT_EQ(config.cem.refine_niches, 18);
+  EXPECT_EQ(config.cem.refine_admits, 87.5);
   EXPECT_EQ(config.cem.part_step, 0.45);
   EXPECT_EQ(config.cem.prior_fraction, 0.75);
   EXPECT_EQ(config.cem.prior_scored, 13);
@@ -139,12 +141,15 @@ TEST(RunConfig, RefinesElitesOnlyWhereTheyAreLearntFrom) {
   EXPECT_THROW(Validate(config, "x"), InputError);
   config.model.kind = ModelKind::kSolids;
   EXPECT_NO_THROW(Validate(config, "x"));
+  config.cem.refine_admits = 90.0;  // by niches that there are not
+  EXPECT_THROW(Validate(config, "x"), InputError);
   config.cem.refine_niches = 40;
   EXPECT_NO_THROW(Validate(config, "x"));
   config.cem.refine_steps = 0;
   EXPECT_THROW(Validate(config, "x"), InputError);
   config.cem.refine_steps = 5;
   config.cem.refine_niches = 0;
+  config.cem.refine_admits = 100.0;
   config.cem.mode = EpisodeMode::kGan;
   EXPECT_THROW(Validate(config, "x"), InputError);
 }
