@@ -32,7 +32,7 @@ class EliteNiches {
   // `rng`, all if it has fewer. elites: how many there are. admits: the limit above, as a
   // percentile of the scores of the elites as they are then; at 100 there is none.
   EliteNiches(const torch::Tensor& prior, std::int64_t elites, std::int64_t niches, RngStream rng,
-              double admits = 100.0);
+              double admits);
 
   // The elites as they are; elite i is row i.
   void Set(const JudgedLatents& elites);

@@ -39,8 +39,9 @@ void Bind(OptionTable* table, CemOptions* o) {
              "latent mode: shapes of the prior set by which elites compete in those trials, each "
              "in the niche of the nearest; 0 = each for itself");
   table->Add("cem.refine_admits", &o->refine_admits, 0, 100,
-             "with niches: where there is room a trial comes in that scores no higher than this "
-             "percentage of the elites do; 100 = whatever it scores");
+             "with niches: the percentile of the elites' scores up to which a trial comes in where "
+             "there is room, beyond it only if it scores lower than what goes; 100 = whatever it "
+             "scores");
   table->Add("cem.refine_hausdorff", &o->refine_hausdorff, 0.1, 50,
              "how far that may move its surface, percent of the bounding box's diagonal");
   table->Add("cem.prior_fraction", &o->prior_fraction, 0, 10,

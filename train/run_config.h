@@ -71,7 +71,8 @@ struct CemOptions {
   // Latent mode: of how many shapes of the prior set, drawn anew in every episode, the niches are
   // by which elites compete in these trials (elite_niches.h). 0 = each elite is on its own.
   int refine_niches = 0;
-  // Up to which percentile of the elites' scores a niche with room takes what falls into it.
+  // The percentile of the elites' scores up to which a niche with room takes what falls into it,
+  // beyond it only what scores lower than what has to go.
   double refine_admits = 100.0;   // 100 = whatever it scores
   double refine_hausdorff = 5.0;  // how far its surface may move, percent of its diagonal
   double prior_fraction = 0.0;    // prior shapes mixed into the elites, as a share of `keep`

@@ -91,7 +91,7 @@ TEST(EliteNiches, LetNothingInThatIsNearToAnotherElite) {
 
 // Three of four shapes are at one place, and the niche of one of them holds all three.
 EliteNiches ThreeAndOne() {
-  return EliteNiches(OnALine({0, 0, 0, 40}), 4, 4, RngStream(1, "elite_niches_test"));
+  return EliteNiches(OnALine({0, 0, 0, 40}), 4, 4, RngStream(1, "elite_niches_test"), 100.0);
 }
 
 TEST(EliteNiches, HoldAsManyEachAsTheirShareOfThePriorSet) {
@@ -154,7 +154,7 @@ TEST(EliteNiches, KeepWhatIsRefinedSpreadAsThePriorSet) {
   RngStream alone(1, "alone"), apart(1, "apart");
   const std::vector<double> gathered = judge(RefineLatents(elites, trials, judge, &alone)).scores;
   for (const double score : gathered) EXPECT_LT(score, 1.0);
-  EliteNiches niches(prior, 9, 9, RngStream(1, "niches"));
+  EliteNiches niches(prior, 9, 9, RngStream(1, "niches"), 100.0);
   const torch::Tensor refined = RefineLatents(elites, trials, judge, &apart, nullptr, &niches);
   const JudgedLatents spread = judge(refined);
   niches.Set(spread);
